@@ -6,7 +6,10 @@ import { resolve } from "node:path";
 import { gzipSync } from "node:zlib";
 import { defineConfig, type Plugin } from "vite";
 
-/** Content security policy: the page may run its own scripts and worker, and read embedded data. The first script, if present, adds the server that the page may access. */
+/**
+ * Returns the content security policy: the page may run its own scripts and worker, and read embedded data. With two
+ * scripts, the first one (guard.js) restricts the servers that the page may access.
+ */
 function policy(scripts: string[]): string {
   const hashes = scripts.map((script) => `'sha256-${createHash("sha256").update(script).digest("base64")}'`);
   return [

@@ -30,7 +30,7 @@ export function showAcross(host: HTMLElement, rows: HTMLElement, perPixel: HTMLI
 
   const cornerTangent = (i: number): Vec3 => [Math.cos(directions[i]!), Math.sin(directions[i]!), 0];
   const tangentAt = (w: Weights): Vec3 => add(add(scale(w[0], cornerTangent(0)), scale(w[1], cornerTangent(1))), scale(w[2], cornerTangent(2)));
-  /** Returns the shading normal, where the plate texture repeats four times across the triangle and B = cross(N, T). */
+  /** Returns the shading normal of a texel, with B = cross(N, T). */
   const shade = (n: Vec3, tangent: Vec3): Vec3 => unit(add(add(scale(n[0], tangent), scale(n[1], [-tangent[1], tangent[0], 0])), scale(n[2], kNormal)));
   const texel = ([x, y]: Vec2): Vec3 => texelAt(2 * x + 0.1, 2 * y + 0.1);
   const used = (tangent: Vec3): Vec3 => (perPixel.checked ? unit(tangent) : tangent);

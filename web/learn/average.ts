@@ -9,7 +9,7 @@ const kTop: Plane = { origin: [150, 145], unit: 120 };
 const kSide: Plane = { origin: [450, 190], unit: 110 };
 const kRing = 5;
 
-/** Height of the surface near the vertex. */
+/** Returns the height of the surface near the vertex. */
 const height = ([x, y]: Vec2): number => -0.35 * (x * x + y * y);
 
 export function showAverage(host: HTMLElement, rows: HTMLElement) {

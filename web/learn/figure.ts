@@ -67,7 +67,7 @@ export class Figure {
     return this.add("line", { class: name, x1: a[0], y1: a[1], x2: b[0], y2: b[1] });
   }
 
-  /** Draws an arrow with its head as a path, so that it prints; nothing if its length is zero. */
+  /** Draws an arrow; nothing if its length is zero. The head is a path, so that it is also printed. */
   arrow(plane: Plane, from: Vec2, step: Vec2, name: string, word = "") {
     const a = Figure.at(plane, from), b = Figure.at(plane, [from[0] + step[0], from[1] + step[1]]);
     const size = Math.hypot(b[0] - a[0], b[1] - a[1]);

@@ -439,8 +439,8 @@ export class App {
   }
 
   /**
-   * Compares the other file with this one, to color its own picture by the error too. Returns false if another model
-   * was opened meanwhile.
+   * Compares the other file with this one, so that the picture of the other file shows the error too. Returns false if
+   * another model was opened meanwhile.
    */
   async #compareBack(other: Scene, scene: Scene): Promise<boolean> {
     for (const drawn of other.drawn) {

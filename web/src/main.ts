@@ -107,7 +107,7 @@ function checked(report: CheckReport): void {
   convert.show(app.model);
 }
 
-/** After a fix, the list, the look, the picture and the counts are about the fixed file, right of the split line. */
+/** Shows a fixed file right of the split line. The list, the look and the counts are then about the fixed file. */
 function showFixed({ name, bytes, others, checked: after }: FixedModel, url: string, isChanged: boolean): void {
   const before = app.reports.check as CheckReport | undefined;
   if (!before) return fix.wait();
@@ -175,7 +175,7 @@ function closeModel(): void {
 }
 
 let pile = new Pile();
-/** If several models were opened together: a choice of the model. */
+/** Choice of the model, if several were opened together. */
 const others = el("select", { class: "models", "aria-label": "Models that were opened together", hidden: true });
 
 /** Opens dropped or chosen files; later files may belong to the current model. */

@@ -33,7 +33,7 @@ before(async () => {
       try {
         return [200, readFileSync(join(shared, "models/khronos/Suzanne", url.slice("/suzanne/".length)))];
       } catch {
-        // missing
+        // The file does not exist.
       }
     }
     return [404, "no"];

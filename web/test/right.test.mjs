@@ -11,7 +11,7 @@ import { choose, drawn, farApart, fixAndDownload, missing, noShared, openFile, o
 const rightLabel = (tab) => tab.locator(".side.right").textContent();
 const cat = () => join(shared, "models/assets/Cat.glb");
 
-/** Share of pixels that differ by more than a step of rounding between two pictures. */
+/** Returns the share of pixels that differ between two pictures by more than rounding. */
 const differing = (one, other) => shareOf(one, (i) => farApart(one.data, i, other.data, i) > 6);
 
 async function picture(tab, split) {

@@ -4,7 +4,7 @@ using System.Runtime.InteropServices;
 
 namespace Tspace
 {
-    /// <summary>Indexed mesh with the same faces as the input, whose vertices can be shared by corners.</summary>
+    /// <summary>Indexed mesh with the same faces as the input. Corners with equal values share a vertex.</summary>
     public sealed class IndexedFrames
     {
         /// <summary>The new vertex of each corner.</summary>

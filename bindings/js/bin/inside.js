@@ -42,7 +42,7 @@ export function allowed(path) {
   const text = path.toString();
   if (devices.includes(text)) return path;
   try {
-    // Bytes that are not valid text would be looked up under a different name.
+    // Bytes that are not valid text are rejected, because `text` then names a different file.
     if ((typeof path === "string" || Buffer.from(text).equals(path)) && folders.some((folder) => isIn(folder, realPlace(text)))) return path;
   } catch {
     // The path cannot be resolved.

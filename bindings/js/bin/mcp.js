@@ -96,7 +96,7 @@ const tools = {
 /** Error for a rejected call; its message is sent to the client. */
 class Refusal extends Error {}
 
-/** Returns functions that convert paths of calls (relative to the folder or absolute) to real paths inside it. */
+/** Returns functions that convert paths of calls, relative to the folder `root` or absolute, to real paths in it. */
 export function placesIn(root) {
   const real = (path) => {
     let place;

@@ -6,7 +6,7 @@ import { Worker } from "node:worker_threads";
 import { systemOf } from "./system.js";
 
 const ended = 0, code = 1, workerCount = 2, firstWorker = 4, wordsOfWorker = 8, mostWorkers = 1024;
-/** State of a worker; 0 until its first thread. */
+/** States of a worker. The state is 0 until the worker gets its first thread. */
 const idle = 1, taken = 2, ready = 3;
 
 export const newTable = () => new Int32Array(new SharedArrayBuffer(4 * (firstWorker + wordsOfWorker * mostWorkers)));

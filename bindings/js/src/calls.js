@@ -57,7 +57,7 @@ export function tangentArguments(options, { methods, ngons }) {
   ];
 }
 
-/** Methods that use an option; options not listed are used by all methods. */
+/** For each option that only one method uses: the name of that method. */
 const readers = { threshold: "mikktspace", pairing: "mikktspace", refine: "best" };
 
 /** Returns the names of given options that the method does not use. */

@@ -34,7 +34,7 @@ function viewOf(array, name, types, needed) {
   }
 }
 
-/** Checks a Float32Array, or undefined. `size`: number of components per element. */
+/** Returns a checked view of a Float32Array, or undefined if it is missing. `size`: components per element. */
 export function floats(array, name, size, isRequired = false) {
   if (isMissing(array)) {
     if (isRequired) fail("missingAttribute", `${name} is missing; it must be a Float32Array with ${size} numbers for each element`);
@@ -46,14 +46,14 @@ export function floats(array, name, size, isRequired = false) {
   return numbers;
 }
 
-/** Returns bytes as a Uint8Array. */
+/** Returns a checked view of bytes as a Uint8Array. */
 export function bytes(value, name) {
   const isBuffer = /ArrayBuffer$/.test(value?.[Symbol.toStringTag]);
   if (isBuffer && value.byteLength === 0) return new Uint8Array(0); // detached, or empty
   return viewOf(isBuffer ? new Uint8Array(value) : value, name, [Uint8Array], "a Uint8Array or an ArrayBuffer");
 }
 
-/** Checks an array of unsigned integers, or undefined. */
+/** Returns a checked view of an array of unsigned integers, or undefined if it is missing. */
 export function integers(array, name) {
   if (isMissing(array)) return undefined;
   return viewOf(array, name, [Uint32Array, Uint16Array, Uint8Array], "a Uint32Array, Uint16Array or Uint8Array");
@@ -76,7 +76,7 @@ export function numberWithin(value, name, least, most, unit) {
   return value;
 }
 
-/** Checks a Uint8Array of the caller that receives output, or undefined. */
+/** Returns a checked view of a Uint8Array that receives output, or undefined if the caller provides none. */
 export function output(array, name, count) {
   if (isMissing(array)) return undefined;
   const given = viewOf(array, name, [Uint8Array], "a Uint8Array");

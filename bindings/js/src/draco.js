@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Draco with the modules of npm's draco3d. Their objects use separate memory, and must be destroyed individually.
+// Decodes and encodes Draco with the modules of npm's draco3d. Objects of these modules use the modules' own memory,
+// and must be destroyed individually.
 
 const headBytes = 11;
 const hasMetadata = 0x8000;

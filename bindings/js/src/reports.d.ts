@@ -222,7 +222,7 @@ export interface InspectedPrimitive {
   hasNormals: boolean;
   /** The primitive has tangents. */
   hasTangents: boolean;
-  /** "hasTangents" is false, but the file may have tangents that the importer cannot read. */
+  /** The file may have tangents that the importer cannot read; "hasTangents" is then false. */
   tangentsNotRead: boolean;
   /** Names of the formats of packed frames in the primitive, such as "frame32". */
   packedFrames: string[];
@@ -464,7 +464,7 @@ export interface DiffedSide {
   triangles: number;
   /** The primitive has tangents. */
   hasTangents: boolean;
-  /** "hasTangents" is false, but the file may have tangents that the importer cannot read. */
+  /** The file may have tangents that the importer cannot read; "hasTangents" is then false. */
   tangentsNotRead: boolean;
   /** The primitive has normals. */
   hasNormals: boolean;

@@ -22,7 +22,10 @@ export function expectDocument(document) {
   if (hasSchemas) expectValid(document, `${document.schema.replace("/", ".")}.json`);
 }
 
-/** Validates the result of the function `verb` of tspace/gltf against the schema of a file's entry; that of diff is a whole document. */
+/**
+ * Validates the result of the function `verb` of tspace/gltf against the schema of a file's entry. The result of diff
+ * is a whole document.
+ */
 export function expectReport(verb, report) {
   if (verb === "diff") return expectDocument(report);
   const { exitCode, ...entry } = report;

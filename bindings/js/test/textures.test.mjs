@@ -122,7 +122,7 @@ describe("compressMap", () => {
   it("accepts textures, other files with decodeImage, and floats", () => {
     const image = waves(32, 32), fine = waves(32, 32, 65535);
     const { bytes } = compressMap(image, { format: "rg8", noLevels: true });
-    assert.equal(compressMap(bytes).report.warnings.length, 1); // reports how channels were read
+    assert.equal(compressMap(bytes).report.warnings.length, 1); // the warning states how channels were read
     const png = Uint8Array.from([0x89, 0x50, 0x4e, 0x47]);
     const types = [];
     assert.deepEqual(compressMap(png, { decodeImage: (file, type) => (types.push(type), image) }).bytes, compressMap(image).bytes);

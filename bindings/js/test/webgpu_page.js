@@ -30,7 +30,7 @@ function posed({ positions, targets, joints, jointWeights }, weights, matrices) 
   return moved;
 }
 
-/** Rotates about y by an angle that increases with x. */
+/** Returns the positions, rotated about y by an angle that increases with x. */
 function bent(positions) {
   const made = positions.slice();
   const xs = positions.filter((_, i) => i % 3 === 0), low = Math.min(...xs.slice(0, 60000)), size = Math.max(...xs.slice(0, 60000)) - low;
@@ -174,7 +174,7 @@ export async function main() {
   await Promise.all([ready, packReady]);
   const meshes = await loadMeshes(), device = await newDevice(), outcomes = [];
   for (const mesh of meshes) for (const method of ["mikktspace", "uniform", "lengyel"]) outcomes.push(await comparePose(device, mesh, method));
-  // A shader that adds the second edge must have a large error.
+  // A mutant of the shader that adds the second edge instead of subtracting it must have a large error.
   const mutant = await newDevice((code) => code.replace("a * corner.e1 - b * corner.e2", "a * corner.e1 + b * corner.e2"));
   const spoiled = await comparePose(mutant, meshes[0], "mikktspace");
   return { outcomes, spoiled };

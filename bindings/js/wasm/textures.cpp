@@ -60,8 +60,8 @@ struct TextureWords {
 };
 TextureWords words;
 
-/// Image in the layout that JavaScript writes: `bits` 8, 16 or 32 (floats) of red, green, blue and alpha; 0: a texture
-/// file of `size` bytes.
+/// Image in the layout that JavaScript writes. `bits`: bits of each channel of RGBA pixels, 8, 16 or 32 (floats); 0 if
+/// `data` is a texture file of `size` bytes.
 struct ImageWords {
     const std::uint8_t* data;
     std::size_t size;
@@ -210,7 +210,8 @@ std::uint32_t readTexture(const std::uint8_t* data, std::size_t size, std::size_
 }
 
 /// Converts a map as `tspace convert-map` does without a mesh. `channels`: the value of --channels, or null; `curve`: the
-/// number of a MapCurve. The pixels are in textureWords(): 16 bits per channel, or 8 if the bytes of the input are kept.
+/// number of a MapCurve. The pixels are in textureWords(): 8 bits per channel if the only change to an 8-bit image is
+/// an inverted green channel, otherwise 16.
 TSPACE_JS_EXPORT(convertMap)
 std::uint32_t convertMap(const ImageWords* given, const char* channels, std::uint32_t curve, bool flips_red,
                          bool flips_green) {

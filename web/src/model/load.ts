@@ -78,7 +78,7 @@ function partOf(mesh: Mesh, where: Origin, materialIndex: number, normalImages: 
     material: materialIndex,
     arrays,
     normalMap,
-    // The loader negates y if there are no tangents.
+    // Only x is used, because the loader negates y if there are no tangents.
     normalScale: material.normalScale?.x ?? 1,
     normalImage: normalImages[materialIndex] ?? -1,
     color: new Vector3(color.r, color.g, color.b),

@@ -9,7 +9,7 @@ const kFilled = 0.85;
 /** Initial viewing direction. */
 const kFirstDirection = new Vector3(0.55, 0.42, 1).normalize();
 
-/** Returns a unit direction to look from; replaces a zero one, and one along the vertical, which has no "up" in the picture. */
+/** Returns a unit direction to look from: zero, and directions along the vertical (without "up"), are replaced. */
 function usable(toward: Vector3): Vector3 {
   const direction = toward.clone().normalize();
   if (direction.lengthSq() === 0 || !Number.isFinite(direction.x)) direction.set(0.5, 0.4, 1).normalize();

@@ -135,7 +135,7 @@ export class UvMapView {
     return this.work.run("map", { arrays: structuredClone({ ...part.arrays, normals: null, tangents: null, uvs: read.uvs }) }).catch(() => null);
   }
 
-  /** Highlights what is under the pointer in the picture. */
+  /** Highlights in the map the position that is under the pointer in the picture. */
   point(spot: Spot | null): void {
     if (!this.isOpen) return;
     if (!spot) return this.#mark([], null);

@@ -25,7 +25,7 @@ function bumps() {
 /** Maximum size in bytes of a placeholder image of a few texels. */
 const kLeastImage = 1000;
 
-/** Gives every triangle with UVs a material with a normal map: its own, or bumps. */
+/** Gives every primitive with UVs a material with a normal map: its own map, or the one of bumps(). */
 export function giveNormalMaps(glb) {
   const { json } = glb;
   json.materials ??= [];

@@ -233,7 +233,7 @@ class InspectedPrimitive(Report):
     has_normals: bool
     #: The primitive has tangents.
     has_tangents: bool
-    #: "hasTangents" is false, but the file may have tangents that the importer cannot read.
+    #: The file may have tangents that the importer cannot read; "hasTangents" is then false.
     tangents_not_read: bool
     #: Names of the formats of packed frames in the primitive, such as "frame32".
     packed_frames: List[str]
@@ -476,7 +476,7 @@ class DiffedSide(Report):
     triangles: int
     #: The primitive has tangents.
     has_tangents: bool
-    #: "hasTangents" is false, but the file may have tangents that the importer cannot read.
+    #: The file may have tangents that the importer cannot read; "hasTangents" is then false.
     tangents_not_read: bool
     #: The primitive has normals.
     has_normals: bool
