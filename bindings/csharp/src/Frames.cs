@@ -4,7 +4,8 @@ using System.Runtime.InteropServices;
 
 namespace Tspace
 {
-    /// <summary>Indexed mesh with the same faces as the input. Corners with equal values share a vertex.</summary>
+    /// <summary>Indexed mesh with the same faces as the input. Corners share a vertex only if all their values are
+    /// equal.</summary>
     public sealed class IndexedFrames
     {
         /// <summary>The new vertex of each corner.</summary>

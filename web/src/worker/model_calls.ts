@@ -33,7 +33,7 @@ export async function judgeImage({ name, bytes }: ModelFiles): Promise<{ report:
   return { report: check(image, { name, memoryLimit: "2G", decodeImage: () => pixels }), image };
 }
 
-/** Runs generate on a model and its images, because an inverted green channel may explain inverted signs. */
+/** Runs generate. Provides the model's images too, because an inverted green channel may explain inverted signs. */
 export async function generateModel(model: ModelFiles, options: Record<string, unknown>): Promise<{ report: unknown; bytes: Uint8Array<ArrayBuffer> }> {
   const given = await withImages(model);
   const { bytes, report } = await withEncoder((encodeImage) => generate(model.bytes, { ...given, ...options, encodeImage }));
