@@ -128,8 +128,8 @@ export interface IndexedFrames {
 }
 
 /**
- * The common case in one call: computes missing normals, then tangents, repairs them, and splits vertices into an
- * indexed mesh.
+ * Computes missing normals, then tangents, repairs tangents, and splits vertices into an indexed mesh: the common case
+ * in one call.
  */
 export function makeIndexedFrames(mesh: Mesh, options: IndexedFramesOptions): IndexedFrames;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Replaces functions that emscripten's C library only emulates by JavaScript (bindings/js/bin/system.js), and starts
-// the program: main() runs in a separate thread, so that the first thread can handle signals.
+// Functions of the C library that emscripten only emulates: system.js (bindings/js/bin) implements them with node. Also
+// starts the program: main() runs in a separate thread, so that the first thread can handle signals.
 #include <dirent.h>
 #include <fcntl.h>
 #include <pthread.h>

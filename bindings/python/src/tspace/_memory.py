@@ -38,7 +38,7 @@ def new_array(shape: Tuple[int, ...]) -> numpy.ndarray:
         memory = _spare.pop()
     except IndexError:
         memory = None
-    # At most twice as large as needed, so that a small result does not occupy a large result's memory.
+    # A reused block is at most twice as large as needed, so that a small result does not occupy a large one's memory.
     if memory is None or not size <= memory.nbytes <= 2 * size:
         memory = numpy.empty(size, numpy.uint8)
     return numpy.asarray(_Block(memory, shape))
