@@ -112,7 +112,7 @@ std::vector<Vec3> converted(const std::vector<Vec3>& texels, const MapSide& from
     return out;
 }
 
-/// Returns the direction at each texel's center; zero if there is no triangle.
+/// Returns the shading direction at each texel's center, or zero if no triangle covers it.
 std::vector<DVec3> shown(const std::vector<Vec3>& texels, const Corners& side) {
     std::vector<std::uint32_t> corners(side.uvs.size());
     for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
@@ -225,7 +225,8 @@ TEST(ConvertMap, LeavesTheBackgroundAlone) {
     ConvertMapReport report;
     const auto out = converted(texels, from.side(), to.side(), {}, &report);
     const auto in_object = converted(texels, from.side(), {.space = MapSpace::object});
-    // Filtering between 0.3 * 64 and 0.6 * 64 reads columns 18 (whose center is 0.7 away) to 38.
+    // Filtering at u and v from 0.3 to 0.6 (of 64 texels) reads columns 18 (whose center is 0.7 texels outside) to 38,
+    // and the same rows.
     for (std::size_t i = 0; i < texels.size(); ++i) {
         const std::size_t x = i % 64, y = i / 64;
         const bool is_read = x >= 18 && x <= 38 && y >= 18 && y <= 38;
@@ -275,7 +276,7 @@ TEST(ConvertMap, ConvertsToObjectSpaceAndBack) {
     }
     EXPECT_LT(mostApart(shown(converted(in_object, object, mesh.side()), mesh), wanted), 0.004);
 
-    // A rotated object: x of the map is y of the frames.
+    // The object is rotated: x of the map points along y of the mesh.
     const std::vector<MapAxes> axes(mesh.uvs.size() / 3, MapAxes{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}});
     MapSide turned = object;
     turned.axes = axes;
@@ -289,7 +290,8 @@ TEST(ConvertMap, ConvertsToObjectSpaceAndBack) {
     EXPECT_NEAR(decodeTexel(out[middle], {}).y, -decodeTexel(in_object[middle], {}).x, 1e-4);
 }
 
-// The filter mixes neighbors, which compensate for rounding errors. No length changes by more than rounding.
+// Functions on texels. Filtering mixes neighbors, so they compensate for each other's rounding errors. No length
+// changes by more than rounding.
 double lengthOf(const Vec3& texel) { return length(2.0 * toDouble(texel) - DVec3{1, 1, 1}); }
 
 DVec3 directionOf(const Vec3& texel) { return (1 / lengthOf(texel)) * (2.0 * toDouble(texel) - DVec3{1, 1, 1}); }
@@ -322,7 +324,7 @@ TEST(ConvertMap, RoundsChannelsOfObjectSpaceMapsTogether) {
     EXPECT_LT(sum, 0.15 * plain_sum);
 }
 
-/// Returns texels of length 1 tilted by up to 20 degrees, with nearly equal neighbors.
+/// Returns texels with length 1, tilted by up to 20 degrees, whose neighbors are nearly equal.
 std::vector<Vec3> gentleTexels() {
     std::vector<Vec3> texels;
     for (std::uint32_t i = 0; i < kSize * kSize; ++i) {
@@ -333,7 +335,7 @@ std::vector<Vec3> gentleTexels() {
     return texels;
 }
 
-/// Returns the map converted without rounding, then with each channel independently rounded to 8 bits.
+/// Returns the map converted without rounding and then rounded to 8 bits, each channel independently.
 std::vector<Vec3> roundedPlainly(const std::vector<Vec3>& texels, const Corners& from, const Corners& to) {
     auto rounded = converted(texels, from.side(), to.side(), {.bits = 32});
     const auto round = [](float part) { return std::floor(part * 255 + 0.5f) / 255; };
@@ -350,7 +352,8 @@ TEST(ConvertMap, ChoosesTheBestLengthsWithEightBits) {
     for (const Vec3& texel : best) EXPECT_GE(length(decodeTexel(texel, {})), 0.69);
 }
 
-/// Returns the mean angle between the means of n x n texels of two maps, over blocks whose texels the mesh covers.
+/// Returns the mean angle between the mean vectors of n x n texels of two maps, over blocks in the part that the mesh
+/// covers.
 double meansApart(const std::vector<Vec3>& a, const std::vector<Vec3>& b, std::uint32_t n) {
     double sum = 0;
     int count = 0;
@@ -369,7 +372,7 @@ double meansApart(const std::vector<Vec3>& a, const std::vector<Vec3>& b, std::u
     return sum / count;
 }
 
-// As in baked maps, 8-bit maps with `even` lengths have smaller direction errors in mip levels than with `free`.
+// As in baked maps, `even` lengths give 8-bit maps smaller direction errors in mip levels than `free` lengths.
 TEST(ConvertMap, EvenLengthsHaveSmallerErrorsInMipLevels) {
     const Corners from = cornersOf({}), to = cornersOf({.twist = 0.3, .lean = 0.2});
     const auto texels = gentleTexels(), exact = converted(texels, from.side(), to.side(), {.bits = 32});
@@ -384,7 +387,7 @@ TEST(ConvertMap, EvenLengthsHaveSmallerErrorsInMipLevels) {
     EXPECT_LT(meansApart(exact, free, 1), 0.8 * meansApart(exact, even, 1));
 }
 
-// Neighbors compensate for rounding errors under filtering, in every direction of the vectors.
+// Neighbors compensate for each other's rounding errors under filtering, whichever axis the vectors are near.
 TEST(ConvertMap, ChoosesIntegersOfEightBitsTogether) {
     const MapAxes turns[] = {
         {}, {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}, {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}}};
@@ -405,7 +408,7 @@ TEST(ConvertMap, ChoosesIntegersOfEightBitsTogether) {
     }
 }
 
-// Filtering weights texels by their lengths: if neighbors differ in direction, a changed length is an error between
+// Filtering weights texels by their lengths. If neighbors differ in direction, a changed length causes an error between
 // them.
 TEST(ConvertMap, KeepsLengthsWithEightBitsWhereNeighborsPointElsewhere) {
     const Corners from = cornersOf({}), to = cornersOf({.twist = 0.3, .lean = 0.2});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// heightToNormal compared with formulas, flat and on meshes.
+// heightToNormal compared with formulas, without a mesh and on meshes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,7 +39,7 @@ Made make(const Height& height, const MapSide& mesh, HeightToNormalOptions optio
     return made;
 }
 
-/// Waves from 0 to 1 that repeat at the borders.
+/// Returns the height of waves, from 0 to 1, that repeat at the borders of the image.
 double waves(double u, double v) {
     return .5 + .25 * std::sin(2 * std::numbers::pi * (2 * u + v)) + .25 * std::cos(2 * std::numbers::pi * (3 * v - u));
 }
@@ -53,7 +53,7 @@ double wavesV(double u, double v) {
 }
 
 TEST(HeightToNormal, IsExactForPlanesAndParabolasUpToTheBordersOfAClampedImage) {
-    // Slopes per texel: 1 to the right and 0.5 downward; also with a curvature of 1.5.
+    // The slopes per texel are 1 to the right and 0.5 downward; the second surface also has a curvature of 1.5.
     for (const double curved : {0.0, 1.5}) {
         const auto height = [&](double u, double v) { return .5 * u + .25 * v + curved * (u * u - v * v + u * v); };
         const Made made = make(height, {}, {.strength = 128, .bits = 32}, TextureWrap::clamp);
@@ -66,8 +66,8 @@ TEST(HeightToNormal, IsExactForPlanesAndParabolasUpToTheBordersOfAClampedImage) 
     }
 }
 
-/// The border of a tile is close to that of the whole image from which it was cut, and a mirrored or repeated border is
-/// unchanged.
+/// At the border of a clamped tile, slopes are close to those of the whole image from which the tile was cut. Mirrored
+/// and repeated borders are unchanged.
 TEST(HeightToNormal, GivesTheSlopesOfWavesAtClampedBorders) {
     const Made made = make(waves, {}, {.strength = 10, .bits = 32}, TextureWrap::clamp);
     for (std::uint32_t i = 0; i < kSize; ++i) {
@@ -124,7 +124,7 @@ TEST(HeightToNormal, InvertsGreenAndHeights) {
     }
 }
 
-/// A parallelogram in space that covers the whole image, with exact frames. `mirror`: u points in the opposite
+/// A parallelogram in space whose UVs cover the whole image, with exact frames. `mirror`: u points in the opposite
 /// direction.
 struct Sheet {
     DVec3 along_u{3, 0, 0}, along_v{1, -2, 0};  // v runs down
@@ -147,7 +147,7 @@ struct Sheet {
     }
 };
 
-/// The strength is in units of the mesh, for skewed and mirrored UVs too: the normal is that of the surface displaced
+/// The strength is in units of the mesh, also for skewed and mirrored UVs: the normal is that of the surface displaced
 /// by the heights.
 TEST(HeightToNormal, GivesTheNormalsOfTheRaisedSurface) {
     for (const bool mirror : {false, true}) {

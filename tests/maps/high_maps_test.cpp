@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normal maps of the high poly, and texels shared by several triangles.
+// Baking with normal maps of the high poly, and texels that several triangles share.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,12 +18,12 @@ struct Square {
     std::vector<Vec2> uvs = {};
     std::vector<std::uint32_t> corners = {0, 1, 2, 3, 4, 5};
 
-    /// u increases along x and v against y; if turned, u along y and v along x.
+    /// u increases along x, and v against y; with `is_turned`, u increases along y, and v along x.
     explicit Square(bool is_turned = false, float left = 0) {
         for (const Vec2& at : {Vec2{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}}) {
             positions.push_back({left + at.x, at.y, 0});
             uvs.push_back(is_turned ? Vec2{at.y, at.x} : Vec2{at.x, 1 - at.y});
-            // B points up in the image, against v: along y, or against x.
+            // B points up in the image, against v: along y or, with `is_turned`, against x.
             tangents.push_back(is_turned ? Vec4{0, 1, 0, 1} : Vec4{1, 0, 0, 1});
         }
     }
@@ -33,7 +33,7 @@ struct Square {
     [[nodiscard]] HighPoly high() const { return {.positions = positions, .normals = normals, .corners = corners}; }
 };
 
-/// A map of a uniform slope.
+/// A normal map whose texels are all the same vector.
 struct EvenMap {
     std::vector<Vec3> texels;
 
@@ -72,7 +72,7 @@ TEST_F(HighMapBake, AMapOnOtherUvsShowsTheSameNormals) {
     poly.map_of = map_of;
     poly.tangents = high.tangents;
     poly.uvs = high.uvs;
-    // x of the map points along y of the space, and y against its x.
+    // x of the map points along y of the object, and y of the map against its x.
     const BakedMap result = baked(low.low(), poly, options());
     EXPECT_LT(degreesBetween(vectorIn(result), {-0.36, 0.48, 0.8}), 0.01);
     EXPECT_LT(result.error.max_deg, 0.01) << "the error is measured against the map";
@@ -125,8 +125,8 @@ TEST_F(HighMapBake, RejectsMapsThatDoNotFitTheMesh) {
     EXPECT_EQ(bakeMap(low.low(), poly, options()).error().code, ErrorCode::countMismatch);
 }
 
-/// Two squares with one UV map; the second one is larger in space. The high poly is tilted in different directions over
-/// the two squares.
+/// Two squares that share one UV map; the second one is larger in space. The high poly is tilted in different
+/// directions over the two squares.
 class SharedTexels : public HighMapBake {
   protected:
     SharedTexels() {
@@ -188,7 +188,7 @@ TEST_F(SharedTexels, TheAngleBetweenThemIsReported) {
     const double apart = degreesBetween(kFirst, kSecond);
     for (const MapOverlap overlap : {MapOverlap::mean, MapOverlap::first, MapOverlap::larger}) {
         const BakedMap map = bakedWith(overlap);
-        // Centers on the diagonals are inside no triangle.
+        // Texels whose centers are on the diagonals are inside no triangle, so they are not counted.
         EXPECT_GE(map.conflict_count, 240U);
         EXPECT_NEAR(map.conflict_mean_deg, apart, 0.01);
         EXPECT_NEAR(map.conflict_max_deg, apart, 0.01);

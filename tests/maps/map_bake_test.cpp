@@ -68,7 +68,7 @@ TEST_F(MapBake, SolvingHalvesTheErrorOfAReliefWith16Bits) {
 }
 
 TEST_F(MapBake, TheRimOfAnOpenSurfaceIsAsAccurateAsItsInside) {
-    // Rays beyond the rim hit nothing, but filters read the texels there.
+    // Rays beyond the rim of the surface hit nothing, but filtering reads the texels there.
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 512, true);
     const MapError solved = baked(low.view(), high.view(), sized(512)).error;
@@ -76,7 +76,8 @@ TEST_F(MapBake, TheRimOfAnOpenSurfaceIsAsAccurateAsItsInside) {
 }
 
 TEST_F(MapBake, FewerRaysInLargeMapsHardlyIncreaseTheError) {
-    // Above 1024 x 1024 texels, four rays per texel and its center give the same result as nine rays in smaller maps.
+    // Above 1024 x 1024 texels, four rays per texel and one at its center must be as accurate as the nine rays of
+    // smaller maps.
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 400, true);
     const auto errorOf = [&](std::uint32_t height, unsigned bits) {
@@ -108,7 +109,7 @@ TEST_F(MapBake, GivesTheSameTexelsForAnyNumberOfThreads) {
     const LowMesh low = bench::makeLow(surfaceNamed("bumpy"), Charts::four);
     const HighMesh high = bench::makeHigh(surfaceNamed("bumpy"), 64, true);
     for (const unsigned bits : {8U, 16U}) {
-        // An odd size, so that not all rows are in pairs.
+        // The size is odd, so that not all rows are in pairs.
         BakeOptions options = sized(61, bits);
         options.heat = true;
         const BakedMap one = baked(low.view(), high.view(), options);
@@ -142,7 +143,7 @@ TEST_F(MapBake, CountsHalvesThatNeedDifferentNormals) {
 TEST_F(MapBake, MissesAreCountedAndFilledFromNeighbors) {
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 64, false);
-    // A hole in the middle.
+    // Cut a hole into the middle of the high poly.
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i < high.corners.size(); i += 3) {
         const Vec3& at = high.positions[high.corners[i]];
@@ -177,7 +178,7 @@ TEST_F(MapBake, ReachLimitsTheRays) {
 TEST_F(MapBake, ACageDefinesTheOriginsOfRays) {
     LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 32, false);
-    // An additional layer farther out than the default cage and than the nearest hit.
+    // Add a layer that is farther out than the default cage and than the nearest hit.
     const std::size_t count = high.positions.size(), corner_count = high.corners.size();
     for (std::size_t i = 0; i < count; ++i) {
         high.positions.push_back(high.positions[i] + Vec3{0, 0, 0.2F});
@@ -217,7 +218,7 @@ TEST_F(MapBake, GroupsHitOnlyTheirOwnTriangles) {
     EXPECT_EQ(bakeMap(low_view, high_view, sized(16)).error().code, ErrorCode::countMismatch);
 }
 
-/// Returns the mean angle between the directions of blocks of `side` texels of two maps, over blocks without
+/// Returns the mean angle between the mean vectors of blocks of `side` x `side` texels of two maps, over blocks without
 /// background.
 double levelError(const BakedMap& map, const BakedMap& truth, std::uint32_t side) {
     double sum = 0;
@@ -370,7 +371,7 @@ TEST_F(MapBake, AClampedImageIsAsAccurateAtItsEdges) {
         options.wrap_u = options.wrap_v = TextureWrap::clamp;
         const BakedMap clamped = baked(low.view(), high.view(), options);
         EXPECT_LT(clamped.error.seam_mean_deg, 0.5 * repeated.seam_mean_deg) << "the other edge shows beside each";
-        // Half of a texel at the edge shows only that texel.
+        // Up to half a texel from the edge, clamped filtering reads only the texel at the edge.
         options.fit = MapFit::texel;
         const MapError exact = baked(low.view(), high.view(), options).error;
         EXPECT_LT(clamped.error.seam_mean_deg, 0.9 * exact.seam_mean_deg);
@@ -396,7 +397,7 @@ TEST_F(MapBake, OddTilesOfAMirroredImageAreReversed) {
         const BakedMap third = baked(low.view(), high.view(), options);
         low = start;
         for (const BakedMap& other : {second, third}) {
-            // UVs far from 0 are rounded.
+            // UVs far from 0 are rounded, so results differ slightly.
             EXPECT_NEAR(other.error.mean_deg, first.error.mean_deg, 0.01 * first.error.mean_deg);
             EXPECT_EQ(other.origins, first.origins);
             double off = 0;
@@ -414,7 +415,7 @@ TEST_F(MapBake, NothingIsSampledBeyondAClampedImage) {
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 64, true);
     BakeOptions options = sized(64);
     options.wrap_u = options.wrap_v = TextureWrap::clamp;
-    // Half of the surface is outside the 0-1 UV range.
+    // Move half of the surface out of the 0-1 UV range.
     for (Vec2& uv : low.uvs) uv = {2 * uv.x, uv.y};
     const BakedMap map = baked(low.view(), high.view(), options);
     EXPECT_EQ(map.overlap_count, 0U);
@@ -521,7 +522,7 @@ TEST_F(MapBake, HeatIsTheErrorOfEachTexel) {
 
 #ifdef TSPACE_HAS_TBB
 TEST_F(MapBake, KeepsTheTbbLimitsOfAHost) {
-    // Embree uses TBB too, whose thread limit applies to the whole process.
+    // Embree uses TBB, whose thread limit applies to the whole process.
     const auto limit = [] { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); };
     const LowMesh low = bench::makeLow(surfaceNamed("saddle"), Charts::one);
     const HighMesh high = bench::makeHigh(surfaceNamed("saddle"), 64, false);
@@ -550,7 +551,7 @@ TEST_F(MapBake, ReachAndPositionsMayHaveAnySize) {
         EXPECT_GT(baked(low.view(), high.view(), options).hit_count, 0U) << reach;
         EXPECT_TRUE(measureMap(map, low.view(), high.view(), {.reach = reach})) << reach;
     }
-    // The high poly is nowhere near: an error, at any distance.
+    // If the high poly is far away, the call is an error, at any distance.
     for (const float distance : {10.0F, 1e10F, 1.84e18F, 1.9e18F, 1e30F, 3e38F}) {
         HighMesh far = high;
         for (Vec3& position : far.positions) position.x += distance;

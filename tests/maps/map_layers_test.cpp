@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Maps other than the normal map, compared with formulas.
+// Maps other than the normal map, compared with values from formulas.
 #include "tspace/maps.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ struct Mesh {
 
     [[nodiscard]] HighPoly view() const { return {.positions = positions, .normals = normals, .corners = corners}; }
 
-    /// Adds a grid of cells x cells quads; at(u, v) is the position for u and v from 0 to 1.
+    /// Adds a grid of cells x cells quads. at(u, v) returns a position for u and v from 0 to 1.
     template <class At>
     void addGrid(int cells, const At& at) {
         const auto first = static_cast<std::uint32_t>(positions.size());
@@ -37,7 +37,7 @@ struct Mesh {
             }
         }
     }
-    /// Adds a flat square with the given half side at a height, facing up or down.
+    /// Adds a flat square at the height z that faces up or down. `half`: half of the side.
     void addSquare(double half, double z, int cells = 1, bool faces_up = true) {
         addGrid(cells, [&](double u, double v) {
             return DVec3{half * (2 * u - 1), half * (2 * (faces_up ? v : 1 - v) - 1), z};
@@ -51,7 +51,7 @@ struct Mesh {
     }
 };
 
-/// The square from -1 to 1 at z = 0, whose UVs have row 0 at y = -1.
+/// Tests with a low poly that is the square from -1 to 1 at z = 0. In its UVs, row 0 is at y = -1.
 class MapLayers : public testing::Test {
   protected:
     void SetUp() override {
@@ -87,7 +87,7 @@ class MapLayers : public testing::Test {
         return maps ? Error{} : maps.error();
     }
 
-    /// Returns the center of a texel of a square of `size` texels.
+    /// Returns the center of a texel of the square, for maps of `size` x `size` texels.
     static DVec3 middle(std::uint32_t x, std::uint32_t y, std::uint32_t size) {
         return {2 * (x + 0.5) / size - 1, 2 * (y + 0.5) / size - 1, 0};
     }
@@ -144,7 +144,7 @@ TEST_F(MapLayers, BentNormalsTiltAwayFromAWall) {
     high.addGrid(1, [](double u, double v) { return DVec3{-1.001, 80 * (2 * u - 1), 80 * v}; });
     constexpr std::uint32_t kSize = 32;
     const BakedMaps maps = baked(high, {.layers = {MapLayer::bent, MapLayer::ao}, .ray_count = 1024}, sized(kSize));
-    // Half of the sky, whose mean over the half disc is 4 / (3 pi) sideways and 2 / 3 upward.
+    // Half of the sky is visible. Its mean over the half disc is 4 / (3 pi) sideways and 2 / 3 upward.
     const std::size_t texel = 16 * kSize;
     const Vec3 bent{2 * maps.layers[0].values[3 * texel] - 1, 2 * maps.layers[0].values[3 * texel + 1] - 1,
                     2 * maps.layers[0].values[3 * texel + 2] - 1};
@@ -160,8 +160,8 @@ TEST_F(MapLayers, TheThicknessOfASlabIsItsHeightAndThatOfASphereItsRadius) {
     const BakedLayer thickness = one(slab, MapLayer::thickness, {.thickness_range = 1}, sized(8));
     for (const float value : thickness.values) EXPECT_NEAR(value, 0.25, 1e-5);
     EXPECT_EQ(thickness.most[0], 1);
-    // A ray at an angle to the normal passes through a ball of radius r over a length of 2 r cos, so the depth is 2 r
-    // cos^2.
+    // In a ball of radius r, a ray at an angle to the normal has the length 2 r cos(angle), so the depth is 2 r
+    // cos(angle)^2.
     Mesh ball;
     ball.addBall({0, 0, -1.9}, 2, 64);
     BakeOptions options = sized(8);
@@ -223,7 +223,9 @@ TEST_F(MapLayers, PositionsLieInTheReportedBox) {
 
 TEST_F(MapLayers, MissedTexelsAreFilledFromNeighbors) {
     Mesh high;
-    high.addGrid(1, [](double u, double v) { return DVec3{u - 1, 2 * v - 1, 0.1}; });  // the left half
+    high.addGrid(1, [](double u, double v) {
+        return DVec3{u - 1, 2 * v - 1, 0.1};
+    });  // above the left half of the low poly
     const BakedMaps maps =
         baked(high, {.layers = {MapLayer::height, MapLayer::id}, .ids = std::vector<std::uint32_t>{7, 7}}, sized(16));
     EXPECT_EQ(maps.normal.missed_count, 128U);
@@ -263,7 +265,7 @@ TEST(IdColor, NumbersDifferInEightBitsAndNoneIsBlack) {
     }
 }
 
-/// Returns the RMS error of the curvature at the vertices of a torus, relative to the largest curvature.
+/// Returns the RMS error of the curvature at the vertices of a torus, relative to its largest curvature.
 double curvatureError(int cells) {
     constexpr double kLarge = 1, kSmall = 0.4;
     Mesh torus;
@@ -304,7 +306,7 @@ TEST(SurfaceCurvature, OfACoarseBallWithoutNormalsIsOneByItsRadius) {
 }
 
 TEST(SurfaceCurvature, IgnoresRoundingOfPositions) {
-    // A tube whose ends meet along a line with separate vertices.
+    // A tube whose two ends meet along a line, where each end has vertices of its own.
     constexpr int kCells = 32;
     const auto curvature = [&](float nudge, float weld_distance) {
         Mesh tube;
@@ -340,7 +342,7 @@ TEST_F(MapLayers, CurvatureIsBrightWhereTheSurfaceIsConvexAndGrayWhereItIsFlat) 
     EXPECT_NEAR(fixed.values[16 * 32 + 16] - 0.5F, 0.5F * (layer.values[16 * 32 + 16] - 0.5F), 0.03);
 }
 
-/// Picture of a square from -1 to 1 with these texels.
+/// A map of the square from -1 to 1.
 struct Picture {
     std::uint32_t size = 0;
     std::vector<Vec3> texels = {};
@@ -489,7 +491,7 @@ TEST_F(MapLayers, ExceedingTheMemoryLimitIsRejectedBeforeAnyWork) {
 }
 
 TEST(ScrambledSobol, EachPartOfTheSquareHasOneOfThePointsOfATexelAndOfABlock) {
-    // Cells of 2^-i by 2^-(k - i), for all i.
+    // Returns whether all cells of 2^-i by 2^-(k - i) contain one point, for all i from 0 to k.
     const auto areSpread = [](const std::vector<std::array<double, 2>>& points, int k) {
         for (int i = 0; i <= k; ++i) {
             std::set<std::pair<int, int>> parts;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Causes of missing hits: each cause is created, and must be found.
+// Causes of missing hits: each cause is created in turn, and must be found.
 #include "maps/rays/missed_cause.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ class MissedCause : public testing::Test {
     HighMesh high_ = bench::makeHigh(saddle(), 64, false);
 };
 
-/// Rotates like the sentences describe it: counter-clockwise about an axis.
+/// Returns a point rotated counter-clockwise about an axis, as the messages describe rotations.
 Vec3 turned(const Vec3& at, int degrees, char axis) {
     const auto quarter = [&](const Vec3& v) {
         return axis == 'x' ? Vec3{v.x, -v.z, v.y} : axis == 'y' ? Vec3{v.z, v.y, -v.x} : Vec3{-v.y, v.x, v.z};

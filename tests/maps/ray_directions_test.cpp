@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ray directions: hard edges, shells on flat faces, painted skew.
+// Directions of rays: hard edges, shells on flat faces, painted skew.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,8 @@ namespace {
 using bench::HighMesh;
 using bench::LowMesh;
 
-/// Returns a point on a side of the box from -1 to 1, with s and t from 0 to 1 to the right and up, seen from outside.
+/// Returns a point on a face of the box from -1 to 1. s and t, from 0 to 1, run to the right and upward, seen from
+/// outside.
 Vec3 onSide(int side, float s, float t) {
     const float a = 2 * s - 1, b = 2 * t - 1;
     const Vec3 at[6] = {{1, a, b}, {-1, -a, b}, {-a, 1, b}, {a, -1, b}, {a, b, 1}, {-a, b, -1}};
@@ -24,7 +25,7 @@ Vec3 onSide(int side, float s, float t) {
 
 constexpr Vec3 kSides[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
 
-/// Returns a box with hard edges and one chart per side.
+/// Returns a box with hard edges and one chart per face.
 LowMesh box() {
     LowMesh low;
     for (int side = 0; side < 6; ++side) {
@@ -42,13 +43,13 @@ LowMesh box() {
     return low;
 }
 
-/// Adds a box with round edges.
+/// Adds a box with rounded edges.
 void addRound(HighMesh& high, const Vec3& center, const Vec3& half, float radius, std::uint32_t cells) {
     for (int side = 0; side < 6; ++side) {
         const auto first = static_cast<std::uint32_t>(high.positions.size());
         for (std::uint32_t y = 0; y <= cells; ++y) {
             for (std::uint32_t x = 0; x <= cells; ++x) {
-                // Denser toward the edges, where the surface bends.
+                // Points are denser toward the edges, where the surface bends.
                 const auto spread = [&](std::uint32_t i) {
                     const float part = static_cast<float>(i) / static_cast<float>(cells);
                     return part * part * (3 - 2 * part);
@@ -76,7 +77,7 @@ void addRound(HighMesh& high, const Vec3& center, const Vec3& half, float radius
 
 constexpr float kStudHeight = 0.12F;
 
-/// Returns the box with round edges, and a stud on its top as a separate shell.
+/// Returns the box with rounded edges, optionally with a stud on its top as a separate shell.
 HighMesh roundedBox(bool has_stud, float stud_at = 0) {
     HighMesh high;
     addRound(high, {}, {1, 1, 1}, 0.2F, 40);
@@ -101,7 +102,7 @@ class RayDirectionsTest : public testing::Test {
     static BakedMap baked(const HighMesh& high, const RayOptions& rays) {
         return baked(box().view(), high.view(), options(rays));
     }
-    /// Returns the number of texels inside charts that are tilted by 30 degrees.
+    /// Returns the number of texels inside charts whose normals are tilted by more than 30 degrees.
     static int leaningTexels(const BakedMap& map) {
         int count = 0;
         for (std::size_t i = 0; i < map.texels.size(); ++i)
@@ -110,7 +111,7 @@ class RayDirectionsTest : public testing::Test {
     }
 };
 
-/// Rays at corners whose positions differ only by rounding from those of adjacent sides still coincide.
+/// If positions at the corner of the box differ only by rounding, its faces still use the same rays there.
 TEST_F(RayDirectionsTest, PositionsThatDifferOnlyByRoundingAreWelded) {
     const HighMesh high = roundedBox(false);
     LowMesh nudged = box();
@@ -151,7 +152,7 @@ TEST_F(RayDirectionsTest, ShellsOnAFaceAreSeenFromOutside) {
     const BakedMap plain = baked(roundedBox(false), {}), outermost = baked(high, {});
     const BakedMap nearest = baked(high, {.target = RayTarget::nearest});
     EXPECT_GT(leaningTexels(outermost), leaningTexels(plain) + 30) << "the sides of the stud";
-    // The base below hides the surface: the rays find the surface, but a different one is visible.
+    // With the nearest hits, the rays find the base below the stud, although another surface is visible.
     EXPECT_GT(nearest.error.mean_deg, 2 * nearest.own_error.mean_deg);
     EXPECT_LT(outermost.error.mean_deg, 0.8 * nearest.error.mean_deg);
     EXPECT_GT(nearest.own_error.hidden_count, 500U);
@@ -166,14 +167,14 @@ TEST_F(RayDirectionsTest, BeyondTheCageTheNearestFrontFaceIsUsed) {
     EXPECT_GT(low.error.hidden_count, 500U);
     EXPECT_NEAR(low.error.cage_offset, 0.02, 1e-12);
     EXPECT_NEAR(whole.error.cage_offset, 0.2, 1e-12) << "as the reach";
-    // If the high poly is larger, nothing is inside the cage.
+    // The high poly is larger than the cage, so no surface is inside the cage.
     HighMesh larger = roundedBox(false);
     for (Vec3& at : larger.positions) at = 1.1F * at;
     EXPECT_EQ(baked(larger, {.cage_offset = 0.02}).missed_count, 0U);
 }
 
 TEST_F(RayDirectionsTest, DetailOnFlatFacesIsNotSkewed) {
-    // Far from the center averaged rays are tilted by 30 degrees, so they hit only one side of the stud.
+    // Far from the center of the box, averaged rays are tilted by 30 degrees, so they hit only one side of the stud.
     const HighMesh high = roundedBox(true, 0.5F);
     const int automatic = leaningTexels(baked(high, {})),
               averaged = leaningTexels(baked(high, {.directions = RayDirections::averaged})),
@@ -188,7 +189,7 @@ TEST_F(RayDirectionsTest, ASkewMapBlendsAveragedAndStraightRays) {
     const BakedMap averaged = baked(high, {.directions = RayDirections::averaged}),
                    normals = baked(high, {.directions = RayDirections::normals});
     EXPECT_TRUE(baked(high, {.skew = {2, 2, black}}).texels == averaged.texels);
-    // Stored normals of flat faces are those of the triangles.
+    // On flat faces the stored normals equal those of the triangles.
     EXPECT_TRUE(baked(high, {.skew = {2, 2, white}}).texels == normals.texels);
     const Result<BakedMap> broken = bakeMap(box().view(), high.view(), options({.skew = {3, 2, black}}));
     ASSERT_FALSE(broken);
@@ -199,7 +200,7 @@ TEST_F(RayDirectionsTest, AMeshInPartsIsBakedAsTheWhole) {
     const LowMesh low = box();
     const HighMesh high = roundedBox(true);
     const BakedMap whole = baked(high, {});
-    const std::size_t cut = 3 * 4;  // two sides
+    const std::size_t cut = 3 * 4;  // corners of two faces, which are baked separately
     for (const bool has_rest : {true, false}) {
         LowMesh part = low, rest = low;
         const auto split = [&](auto& shown, auto& hidden) {
@@ -231,7 +232,7 @@ TEST_F(RayDirectionsTest, AMeshInPartsIsBakedAsTheWhole) {
 }
 
 TEST_F(RayDirectionsTest, BothSidesOfALeafKeepTheirOwn) {
-    // The mean of opposite normals has no direction.
+    // The mean of opposite normals is zero, so it has no direction.
     LowMesh leaf;
     for (const float side : {1.0F, -1.0F}) {
         const Vec3 at[3] = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
@@ -251,7 +252,7 @@ TEST_F(RayDirectionsTest, BothSidesOfALeafKeepTheirOwn) {
 
 TEST_F(RayDirectionsTest, PointsThatMissCountAsARightAngle) {
     HighMesh high = roundedBox(false);
-    // The flat part of the top is missing.
+    // Remove the flat part of the top.
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i < high.corners.size(); i += 3) {
         const bool is_top = high.normals[high.corners[i]].z > 0.99F;

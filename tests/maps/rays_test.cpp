@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays compared with testing all triangles individually.
+// Rays compared with a test of every triangle.
 #include "maps/rays/rays.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ Soup randomSoup(std::mt19937& random, float scale, float offset) {
     return soup;
 }
 
-/// Returns the distances of all triangles whose fronts face `outward`.
+/// Returns the distances along a line to all triangles whose fronts face `outward`.
 std::vector<double> frontsByHand(const Soup& soup, const DVec3& from, const DVec3& outward) {
     std::vector<double> distances;
     for (std::size_t i = 0; i < soup.corners.size(); i += 3) {
@@ -51,7 +51,7 @@ std::vector<double> frontsByHand(const Soup& soup, const DVec3& from, const DVec
     return distances;
 }
 
-/// Returns the distance of the nearest front-facing triangle on either side, or infinity.
+/// Returns the distance to the nearest front-facing triangle within `reach` in both directions, or infinity.
 double nearestByHand(const Soup& soup, const DVec3& from, const DVec3& outward, double reach) {
     double best = INFINITY;
     for (const double distance : frontsByHand(soup, from, outward)) {
@@ -132,8 +132,8 @@ TEST(Rays, FindTheOutermostAndTheInnermostFront) {
     EXPECT_LE(wrong, 6);
 }
 
-/// Returns lines that are traced together: some close to each other, some at random positions in a soup, and one that
-/// ends before it begins.
+/// Returns lines that are traced together: some are close to each other, some are at random positions in a soup, and
+/// one ends before it begins.
 std::vector<RayLine> linesTogether(std::mt19937& random, std::size_t count) {
     std::normal_distribution<double> direction(0, 1);
     const auto anywhere = [&] { return DVec3{direction(random), direction(random), direction(random)}; };
@@ -183,7 +183,7 @@ TEST(Rays, HitTheSameTogetherAsOneByOne) {
 }
 
 TEST(Rays, DoNotPassThroughEdgesAndVertices) {
-    // A grid seen along its normals, at its vertices and along its edges.
+    // Rays along the normals of a grid, through its vertices and its edges.
     Soup soup;
     constexpr std::uint32_t kSide = 9;
     for (std::uint32_t y = 0; y < kSide; ++y) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shading reference, and sampling.
+// The reference for shading, and sampling of textures.
 #include "maps/texels/shading.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,8 @@ namespace {
 double partOf() { return *rc::gen::inRange(-1000, 1001) / 1000.0; }
 Vec3 anyVector() { return {static_cast<float>(partOf()), static_cast<float>(partOf()), static_cast<float>(partOf())}; }
 
-/// Returns frames like those of a coarse mesh: N near z, T near x, of any lengths, with one sign.
+/// Returns frames like those of a coarse mesh: N is near z and T is near x, their lengths are arbitrary, and all
+/// corners have one sign.
 CornerFrames anyCorners() {
     CornerFrames corners;
     const float sign = *rc::gen::element(-1.0f, 1.0f);

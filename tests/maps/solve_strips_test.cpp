@@ -22,8 +22,8 @@ const accuracy::Surface& saddle() {
     return accuracy::surfaces().front();
 }
 
-/// The texels of a relief on a saddle, solved in strips of the given number of rows; with `shift` 0.5 its center is at
-/// both ends of the image.
+/// A map of a relief on a saddle, solved in strips of a given number of rows. With `shift` 0.5 the center of the relief
+/// is at both ends of the image.
 class Relief {
   public:
     static constexpr std::uint32_t kSide = 200;
@@ -59,7 +59,7 @@ class Relief {
     bench::HighMesh high_;
 };
 
-/// Mean difference between the texels of two maps, next to the edges of strips, and elsewhere.
+/// Mean differences between the texels of two maps: next to the edges of strips, and elsewhere.
 struct Apart {
     double at_edges = 0, elsewhere = 0;
 
@@ -84,8 +84,8 @@ TEST(SolveStrips, AreAsCloseToAWholeMapAtTheirEdgesAsElsewhere) {
             const std::vector<Vec3> whole = relief.solved(Relief::kSide), strips = relief.solved(kRows);
             if (whole.empty()) GTEST_SKIP() << "no Embree";
             const Apart apart(whole, strips, kRows);
-            // The number of steps depends on the residual of the whole system, so texels far from strip edges are not
-            // exactly equal either.
+            // The number of iterations depends on the residual of the whole system, so texels far from the edges of
+            // strips are not exactly equal either.
             EXPECT_GT(apart.elsewhere, 0);
             EXPECT_LT(apart.elsewhere, 5e-6) << "a sixth of a step of 16 bits";
             EXPECT_LT(apart.at_edges, 5e-6) << "without rows around them 1e-5 and more";
@@ -94,8 +94,8 @@ TEST(SolveStrips, AreAsCloseToAWholeMapAtTheirEdgesAsElsewhere) {
 }
 
 TEST(SolveStrips, HaveNoLargerErrorsWithIntegersAtTheirEdges) {
-    // On a smooth surface the targets must be the vectors before integers were chosen; otherwise the error is 5 %
-    // larger there.
+    // On a smooth surface, targets must be the vectors before integers are chosen; with the chosen ones the error near
+    // the edges of strips is 5 % larger.
     const bench::LowMesh low = bench::makeLow(saddle(), bench::Charts::one);
     const bench::HighMesh high = bench::makeHigh(saddle(), 200, false, 4);
     const Result<BakedMap> map =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Texels under bilinear filtering.
+// Choosing texels that are accurate under bilinear filtering.
 #include "maps/solve/solve_texels.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ struct Sample {
     Vec3 wanted = {};
 };
 
-/// Returns 3 x 3 samples per texel of waves, over an image that repeats.
+/// Returns samples of waves over an image that repeats, 3 x 3 per texel.
 std::vector<Sample> waves(std::uint32_t width, std::uint32_t height) {
     std::vector<Sample> samples;
     for (std::uint32_t y = 0; y < height; ++y) {
@@ -105,7 +105,7 @@ TEST(SolveTexels, IntegersCancelEachOthersErrors) {
 }
 
 TEST(SolveTexels, NeighboringIntegersAreHardlyBetter) {
-    // The last texel of every second row is chosen after all of its neighbors.
+    // In every second row, the last texel is chosen after all of its neighbors.
     constexpr std::uint32_t kWidth = 5, kHeight = 400;
     const std::vector<Sample> samples = waves(kWidth, kHeight);
     const TexelSystem system = systemOf(samples, kWidth, kHeight, 0);
@@ -120,7 +120,7 @@ TEST(SolveTexels, NeighboringIntegersAreHardlyBetter) {
             return texels[std::size_t{line} * kWidth + column];
         }) - row.side;
         const Vec3 chosen = texels[std::size_t{y} * kWidth + x];
-        // Energy, up to a constant. The constant is the minimum over real x and y for this z.
+        // Squared error, up to a constant: the minimum over real-valued x and y for this z.
         const auto energyOf = [&](double dx, double dy) {
             const DVec3 q{chosen.x + dx, chosen.y + dy, chosen.z};
             const SymmetricBlock& m = row.blocks[0];
@@ -143,8 +143,8 @@ TEST(SolveTexels, NeighboringIntegersAreHardlyBetter) {
 }
 
 TEST(SolveTexels, FreerLengthsAreNoWorseWhereDetailIsFine) {
-    // A few texels per wave: no vectors are correct between them, and a short vector leaves its neighbors the remaining
-    // error.
+    // With only a few texels per wave, no vectors are correct between the texels, and a short vector leaves the
+    // remaining error to its neighbors.
     constexpr std::uint32_t kWidth = 22, kHeight = 17;
     const std::vector<Sample> samples = waves(kWidth, kHeight);
     const TexelSystem system = systemOf(samples, kWidth, kHeight, 0);

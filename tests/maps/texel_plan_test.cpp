@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cells in which the map between texels follows from their centers.
+// Cells in which the directions between texels follow from those at the texels' centers, so that fewer rays are needed.
 #include "maps/bake/texel_plan.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t kFieldSide = 40;
 
-/// A field over texels that a triangle covers, except those of the rim, which are only read.
+/// A field of directions over texels that are covered by a triangle, except at the rim, where texels are only read.
 struct Field {
     TracedTexels traced = {};
     TexelTriangles triangles = {};
@@ -85,7 +85,7 @@ TEST(TexelPlan, OverlappingTexelsAreSampled) {
     EXPECT_EQ(field.plan(0.1F).cells[20 * kFieldSide + 20], TexelCell::rough);
 }
 
-/// Returns the mean angle between the filtered texels and a field, away from the rim.
+/// Returns the mean angle between filtered texels and a field of waves, away from the rim.
 double waveErrorOf(std::span<const Vec3> texels) {
     double sum = 0;
     int count = 0;
@@ -125,7 +125,7 @@ TEST(SolveTexels, RoundedTexelsCancelEachOthersErrors) {
     roundTexels(together, kFieldSide, {.most = 4000, .keeps_lengths = true}, parallel, nullptr);
     roundTexels(of_any_length, kFieldSide, {.most = 4000}, parallel, nullptr);
     double plain_sum = 0, together_sum = 0, any_length_sum = 0;
-    // The filtered value between four texels.
+    // Compare the filtered values between each four texels.
     for (std::size_t i = 0; i + kFieldSide + 1 < wanted.size(); ++i) {
         const auto mixed = [&](const std::vector<Vec3>& texels) {
             return 0.25F * ((texels[i] + texels[i + 1]) + (texels[i + kFieldSide] + texels[i + kFieldSide + 1]));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Determination of the triangle that covers each texel.
+// Finding the triangle that covers each texel.
 #include "maps/layout/texel_triangles.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ UvMap randomMap(int least = -1200, int most = 1900) {
     return mapOf(uvs, wrap);
 }
 
-/// Checks that the point of the UV plane at the stored weights is the center of the texel in the image.
+/// Checks that the stored weights give the point of the UV plane at the texel's center.
 void expectCenter(const UvMap& map, const TexelTriangles& found, std::size_t texel) {
     const TexelPlace& place = found.places[texel];
     const auto uvs = cornerUvs(map.triangles(), place.triangle);
@@ -93,7 +93,7 @@ RC_GTEST_PROP(TexelTriangles, GiveTheCenterOfEachTexel, ()) {
     }
 }
 
-/// Returns the distance of a texel's center to the nearest triangle, in any repetition of the image.
+/// Returns the distance from a texel's center to the nearest triangle, in any repetition of the image.
 double nearestOf(const UvMap& map, const TextureShape& shape, std::size_t texel) {
     double least = INFINITY;
     for (std::size_t i = 0; i < map.corners.size() / 3; ++i) {

@@ -69,7 +69,7 @@ TEST(UvCoverage, ContainsNothingThatIsClearlyOutside) {
         for (Vec2& point : uv) point = {coordinate(), coordinate()};
         constexpr int kSize = 16;
         const TexelMask mask = cover({uv.begin(), uv.end()}, kSize, kSize);
-        // Distance to the triangle in texels, at every position that shows a texel.
+        // Returns the signed distance of a point to an edge of the triangle, in texels.
         const auto edge = [&](int i, double x, double y) {
             const Vec2 &a = uv[i], &b = uv[(i + 1) % 3];
             const double dx = double{b.x} - a.x, dy = double{b.y} - a.y, length = std::hypot(dx, dy);
@@ -106,7 +106,7 @@ TEST(UvCoverage, IgnoresInvalidUvs) {
 }
 
 TEST(UvCoverage, EndsSoonOnHostileUvs) {
-    // Slivers across all of the 64 repetitions that are examined, none of which fills a row.
+    // Slivers that cross all of the 64 repetitions that are examined. None of them fills a row.
     std::vector<Vec2> uvs;
     for (int i = 0; i < 20000; ++i) {
         const float u = static_cast<float>(i) * 1e-4f;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every corrupt or malicious file collected by other projects stays below the memory limit.
+// For every corrupt or malicious file collected by other projects, memory stays below the limit.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -14,8 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the size of the file with the buffers and images that it references. A file that is not JSON references
-/// none.
+/// Returns the size of a file plus the buffers and images that it references. Files that are not JSON reference none.
 std::uint64_t bytesWithNamedFiles(const fs::path& model) {
     std::vector<fs::path> files = {model};
     std::ifstream stream(model, std::ios::binary);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The memory limit: a command uses at most 16 times the size of its files, plus 64 MB.
+// Tests of the memory limit: a command uses at most 16 times the size of its files, plus 64 MB.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,19 +18,19 @@ namespace tspace::test {
 constexpr std::uint64_t kCeilingBase = std::uint64_t{64} << 20;
 constexpr std::uint64_t kCeilingRatio = 16;
 
-/// Returns the size of the model and of the files that it references, as listed by the caller.
+/// Returns the total size of the model and the files that it references.
 inline std::uint64_t bytesOf(const std::vector<std::filesystem::path>& files) {
     std::uint64_t sum = 0;
     for (const std::filesystem::path& file : files) sum += std::filesystem::file_size(file);
     return sum;
 }
 
-/// Runs every command on `model`. Each one must end soon, with success or with one line, and stay below the limit for
-/// `file_bytes`. Returns the number of commands that rejected the model.
+/// Runs every command on `model`. Each one must end soon, with success or with one line of message, and stay below the
+/// limit for files of `file_bytes`. Returns the number of commands that rejected the model.
 inline int expectBounded(const std::filesystem::path& model, std::uint64_t file_bytes,
                          const std::vector<std::string>& more_options = {}) {
-    // Work proportional to a declared size would take hours. If fresh pages are expensive, as on some virtual machines,
-    // 40 s were measured.
+    // Work proportional to a declared size would take hours. 40 s were measured on virtual machines on which fresh
+    // pages are expensive.
     constexpr double kMostSeconds = 100;
     const TempFolder scratch;
     const std::string out = scratch.path(model.extension() == ".gltf" ? "out/out.gltf" : "out/out.glb").string();

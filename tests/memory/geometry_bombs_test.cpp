@@ -27,7 +27,7 @@ std::size_t addPlain(GltfBuilder& builder, std::size_t view, int component, cons
     return builder.json()["accessors"].size() - 1;
 }
 
-/// A bumpy sheet of n x n vertices with normals and UVs, as {POSITION, NORMAL, TEXCOORD_0}, and its triangles.
+/// Accessors of a bumpy sheet of n x n vertices with normals and UVs. `attributes`: {POSITION, NORMAL, TEXCOORD_0}.
 struct Sheet {
     Json attributes = {};
     std::size_t indices = 0;
@@ -192,8 +192,8 @@ TEST(MemoryCeiling, HoldsForCustomAttributesOfSharedVertices) {
     expectBounded(folder, builder);
 }
 
-/// The limit for compressed data depends on its decompressed size, which has separate limits; a small file still has a
-/// small limit.
+/// The limit for compressed data depends on its decompressed size, which is limited separately; the limit for a small
+/// file is still small.
 TEST(MemoryCeiling, HoldsForMeshoptViewsOverOneStream) {
     const TempFolder folder;
     GltfBuilder builder;
@@ -243,7 +243,8 @@ TEST(MemoryCeiling, HoldsForDracoHeadersThatClaimMuch) {
         for (const int method : {0, 1}) {
             const TempFolder folder;
             GltfBuilder builder;
-            // Name, version 2.2, a mesh, the method, flags, and counts with seven bits per byte; then invalid data.
+            // The Draco header (name, version 2.2, mesh, method, flags) and two counts with seven bits per byte; then
+            // invalid data.
             Bytes data = {'D', 'R', 'A', 'C', 'O', 2, 2, 1, static_cast<std::uint8_t>(method), 0, 0};
             for (int i = 0; i < 2; ++i) {
                 std::size_t rest = count / 2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images that declare or contain far more pixels than their file size justifies: `check` decodes normal maps.
+// Images that declare or contain far more pixels than their file size justifies. `check` decodes normal maps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using test::GltfBuilder;
 using test::Json;
 using test::TempFolder;
 
-/// Tests a triangle with `count` materials and normal maps, each a separate image with the same bytes.
+/// Tests a triangle with `count` materials, each with a normal map of its own that has the same bytes.
 void expectImageBounded(const std::string& image, int count, bool says_so) {
     const TempFolder folder;
     GltfBuilder builder;
@@ -45,7 +45,7 @@ RgbImage flatImage(std::uint32_t size) {
     return {size, size, std::vector<std::uint8_t>(std::size_t{3} * size * size, 128)};
 }
 
-/// Changes the size in the file's header.
+/// Returns the file with another size in its header.
 std::string claiming(std::string file, std::size_t width_at, std::size_t bytes_each, std::uint32_t width,
                      std::uint32_t height) {
     for (std::size_t i = 0; i < bytes_each; ++i) {
@@ -56,7 +56,7 @@ std::string claiming(std::string file, std::size_t width_at, std::size_t bytes_e
 }
 
 TEST(MemoryCeiling, HoldsForPngThatClaimsFourBillionPixels) {
-    // The checksum of the header is then wrong; decoders check sizes first, or reject the file.
+    // The changed header has a wrong checksum: decoders check sizes first, or reject the file.
     expectImageBounded(claiming(test::pngFile(flatImage(16)), 16, 4, 65535, 65535), 1, true);
     expectImageBounded(claiming(test::pngFile(flatImage(16)), 16, 4, 0xffffffffu, 0xffffffffu), 1, true);
 }
@@ -74,14 +74,14 @@ TEST(MemoryCeiling, HoldsForManyFlatImagesOfManyPixels) {
     expectImageBounded(test::jpegFile(flatImage(2048), 50), 100, false);
 }
 
-/// Returns one byte, repeated `count` times, compressed with Zstandard (RFC 8878) without storing it: the memory of
-/// this process counts too.
+/// Returns one byte, repeated `count` times, compressed with Zstandard (RFC 8878). The uncompressed data is not stored,
+/// because the memory of this process is measured too.
 std::string zstdRun(char byte, std::size_t count) {
     constexpr std::size_t kMostOfBlock = std::size_t{1} << 17;
     const auto put = [](std::string& to, std::size_t number, int bytes) {
         for (int i = 0; i < bytes; ++i) to += static_cast<char>(number >> 8 * i & 255);
     };
-    std::string frame("\x28\xb5\x2f\xfd\xa0", 5);  // a single segment, whose size has four bytes
+    std::string frame("\x28\xb5\x2f\xfd\xa0", 5);  // frame header: a single segment, and a content size of four bytes
     put(frame, count, 4);
     for (std::size_t left = count; left > 0;) {
         const std::size_t size = std::min(left, kMostOfBlock);
@@ -94,7 +94,7 @@ std::string zstdRun(char byte, std::size_t count) {
 }
 
 TEST(MemoryCeiling, HoldsForTexturesThatUnpackToManyPixels) {
-    // 16 million pixels of one color in a few kilobytes, and a file that declares four times as many.
+    // 16 million pixels of one color in a few kilobytes. A second file declares four times as many.
     constexpr std::size_t kBytes = std::size_t{2} << 24;
     test::Ktx2Parts parts{.format = 16, .width = 4096, .height = 4096, .levels = {zstdRun('\x80', kBytes)}};
     parts.unpacked = {kBytes};

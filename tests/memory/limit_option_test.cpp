@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// --memory-limit: valid files that need more memory than their size justifies, and the user's limit.
+// --memory-limit: valid files that need more memory than their size justifies, and limits set by users.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -15,7 +15,7 @@ using test::GltfBuilder;
 using test::MeasuredRun;
 using test::TempFolder;
 
-/// Writes four vertices, drawn as a strip of a million triangles with 1-byte indices.
+/// Writes a model of four vertices, drawn as a strip of a million triangles with 1-byte indices.
 std::string writeLongStrip(const TempFolder& folder) {
     constexpr int kU8 = 5121, kTriangleStrip = 5;
     GltfBuilder builder;
@@ -30,7 +30,7 @@ std::string writeLongStrip(const TempFolder& folder) {
     return folder.write("strip.glb", std::span<const std::uint8_t>(builder.glb()));
 }
 
-/// A file, and the output of a command with a limit; an empty limit is not passed.
+/// Runs commands on the long strip. `limit`: value of --memory-limit; if it is empty, the option is not passed.
 class LongStrip : public testing::Test {
   protected:
     MeasuredRun run(const std::string& command, const std::string& limit = "") {
@@ -66,8 +66,8 @@ TEST_F(LongStrip, UsesNoMoreThanTheLimit) {
     }
 }
 
-/// A user who passes the limit named in an error message needs only a few attempts, although later steps may need more
-/// memory.
+/// A user who passes the limit from the error message needs only a few attempts, although later steps may need more
+/// memory than the first message says.
 TEST_F(LongStrip, IsAcceptedWithTheLimitFromTheMessage) {
     int exit_code = run("generate").exit_code;
     for (int tries = 0; exit_code == 3 && tries < 4; ++tries) {

@@ -18,12 +18,13 @@
 namespace tspace::test {
 
 struct MeasuredRun {
-    int exit_code = -1;  ///< 128 plus the signal that ended it, if any
+    int exit_code = -1;  ///< for a run that was ended by a signal: 128 plus its number
     std::uint64_t peak_bytes = 0;
     double processor_seconds = 0;
 };
 
-/// Protects the machine from a tool that ignores its limits.
+/// Limits the address space of this process and of the tool, to protect the machine from a tool that ignores its
+/// limits.
 inline void limitAddressSpace() {
     rlimit limit{};
     getrlimit(RLIMIT_AS, &limit);
@@ -31,8 +32,8 @@ inline void limitAddressSpace() {
     setrlimit(RLIMIT_AS, &limit);
 }
 
-/// The measured peak is never less than the memory of this process when it started the tool, so tests keep little data
-/// in memory.
+/// Runs the tool and measures its peak memory. The measured peak is at least the memory that this process had when it
+/// started the tool, so tests keep little data in memory.
 inline MeasuredRun runMeasured(const std::vector<std::string>& arguments, const std::filesystem::path& messages) {
     limitAddressSpace();
     std::vector<std::string> words = {TSPACE_TOOL};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small texts that expand to large data: JSON values, OBJ faces, MTL libraries.
+// Small texts that expand to large data: JSON values, faces of OBJ files, material libraries.
 #include <gtest/gtest.h>
 
 #include "expect_bounded.h"
@@ -31,7 +31,7 @@ std::string gltfWith(const std::string& member, const std::string& entry, std::s
 TEST(MemoryCeiling, HoldsForJsonOfManySmallValues) {
     for (const char* value : {"0", "[]", "{}", "\"\"", "[[]]", "{\"\":0}", "[[[]]]", "0.5", "null", "[0]"}) {
         SCOPED_TRACE(value);
-        // Estimates just below the limit must not be too low.
+        // Sizes just below the limit show whether estimates of memory are too low.
         for (const std::size_t bytes : {3'000'000, 5'000'000, 8'000'000}) {
             expectTextBounded("model.gltf", gltfWith("\"extras\":", value, bytes));
         }
@@ -97,7 +97,7 @@ TEST(MemoryCeiling, HoldsForMaterialsOfFewBytes) {
     expectBounded(path, test::bytesOf({path, library}));
 }
 
-/// Other formats are read by a library in a separate process, whose address space is limited.
+/// Tests a file of a format that a library reads in a separate process, whose address space is limited.
 void expectImportBounded(const std::string& name, const std::string& text) {
     const TempFolder folder;
     const std::string path = folder.write(name, text);

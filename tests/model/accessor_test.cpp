@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Decoding of accessors with all component types, layouts and sparse parts, and limits.
+// Decoding of accessors: all component types, layouts, sparse parts, and limits.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ using test::parse;
 
 struct TypeCase {
     int component_type;
-    Bytes bytes;  // 3 components
+    Bytes bytes;  // one element with 3 components
     Vec3 plain, normalized;
     const char* name;
 };
@@ -181,7 +181,7 @@ TEST(Accessor, RejectsAnAttributeWithAWrongComponentCount) {
 }
 
 TEST(Accessor, NeedsNoPaddingAfterTheLastColumnOfMatrices) {
-    // MAT3 of bytes: columns of 3 start every 4 bytes.
+    // A MAT3 of bytes has columns of 3 bytes, each of which starts at a multiple of 4 bytes.
     const std::vector<std::uint8_t> two = {1,  2,  3,  0, 4,  5,  6,  0, 7,  8,  9, 0,
                                            11, 12, 13, 0, 14, 15, 16, 0, 17, 18, 19};
     GltfBuilder builder;
@@ -249,7 +249,7 @@ TEST(Accessor, OfABufferWithoutDataIsAnErrorOnlyWhenItsElementsAreNeeded) {
 }
 
 TEST(Accessor, ReadsEveryQuantizedType) {
-    // KHR_mesh_quantization: normalized or by value.
+    // KHR_mesh_quantization: integers are normalized, or used by value.
     GltfBuilder builder;
     builder.addAccessor(std::vector<std::int8_t>{-128, -127, 127, 0}, 5120, "VEC3", 1);
     builder.addAccessor(std::vector<std::uint8_t>{0, 51, 255, 0}, 5121, "VEC3", 1);

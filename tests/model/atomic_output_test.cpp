@@ -33,7 +33,7 @@ TEST(AtomicOutput, RenamesAllFilesAtOnce) {
     EXPECT_EQ(readFile(folder.path("a")), one);
     EXPECT_EQ(readFile(folder.path("new/deep/b")), toBytes("onetwo"));
     EXPECT_EQ(output.byteCount(), 9u);
-    EXPECT_EQ(folder.entryCount(), 4u);  // two files, two folders, no temporary files
+    EXPECT_EQ(folder.entryCount(), 4u);  // two files and two folders, but no temporary files
 }
 
 TEST(AtomicOutput, LeavesNothingWithoutCommit) {
@@ -55,7 +55,8 @@ TEST(AtomicOutput, UndoesRenamesIfALaterRenameFails) {
     output.add(folder.path("first"), toBytes("new"));
     output.add(folder.path("last"), toBytes("new"));
     output.add(folder.path("fresh"), toBytes("new"));
-    // A folder with that name is created in between, so that the rename of the first file (done at the end) must fail.
+    // A folder with this name is created before the commit, so the rename of the first file, which is done last, must
+    // fail.
     std::filesystem::create_directory(folder.path("first"));
     EXPECT_EQ(errorOf([&] { output.commit(); }).code, ErrorCode::cannotWrite);
     EXPECT_EQ(readFile(folder.path("last")), toBytes("old"));
@@ -98,7 +99,7 @@ TEST(AtomicOutput, WritesThroughALink) {
     EXPECT_EQ(readFile(folder.path("real")), toBytes("new"));
 }
 
-/// Writing would replace the link by a file.
+/// Writing would replace the link by a file, so it is rejected.
 TEST(AtomicOutput, RejectsALinkWithAMissingTarget) {
     const TempFolder folder;
     std::filesystem::create_symlink("nothing", folder.path("link"));
@@ -191,7 +192,7 @@ TEST(AtomicOutput, ASharedFileKeepsTheContentOfTheFirstWriter) {
 
 TEST(AbandonedFiles, AreRestoredIfNoFileReplacedThem) {
     const TempFolder folder;
-    // A process that has ended.
+    // A process that ended while old files were set aside.
     const pid_t child = fork();
     if (child == 0) {
         folder.write("a", std::string("set aside"));

@@ -27,8 +27,8 @@ std::vector<Vec3> bitangentsOf(const GenerateRun& outcome) {
     return readVec3(outcome.after, outcome.primitives.at(0), "_BITANGENT");
 }
 
-/// Returns rows of a grid whose UVs are sheared: u = x - shear(row) * (y - middle), v = -y. So dP/du is (1, 0, 0)
-/// everywhere, and -dP/dv is (-shear, 1, 0) above and below the middle row.
+/// Returns a grid whose UVs are sheared: u = x + shear * (y - middle), v = -(y - middle), where shear is `above` above
+/// the middle row and `below` otherwise. So dP/du is (1, 0, 0) everywhere, and -dP/dv is (-shear, 1, 0).
 GltfBuilder shearedModel(float below, float above) {
     Grid grid(4, false);
     for (std::size_t i = 0; i < grid.vertexCount(); ++i) {
@@ -44,7 +44,7 @@ void expectNear(const Vec3& a, const Vec3& b, double tolerance) {
 }
 
 TEST(BitangentsGltf, FollowDpDvWhereUvsAreSheared) {
-    const Vec3 leaning{-0.6f, 0.8f, 0};  // a shear of 0.75
+    const Vec3 leaning{-0.6f, 0.8f, 0};  // -dP/dv for a shear of 0.75, normalized
     for (const Method method : {Method::mikktspace, Method::angle, Method::fast, Method::best}) {
         const GenerateRun outcome = run(shearedModel(0.75f, 0.75f), withBitangents(method));
         const std::vector<Vec3> bitangents = bitangentsOf(outcome);

@@ -26,7 +26,7 @@ Bytes flat(const std::vector<OutputPiece>& pieces) {
     return all;
 }
 
-/// Generates bytes as a copy of existing ones.
+/// A source of bytes that returns copies of existing ones.
 class Copying final : public ByteMaker {
   public:
     explicit Copying(Bytes bytes) : bytes_(std::move(bytes)) {}

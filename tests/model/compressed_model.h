@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shared tests of both compressions.
+// Tests that Draco and meshopt compression share.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ struct CompressedRun {
     GenerateReport report;
 };
 
-/// Generates all tangents, compares everything that must be preserved, and runs again, which must change nothing.
+/// Generates all tangents, checks everything that must be preserved, and runs again, which must change nothing.
 inline CompressedRun generateAll(const Bytes& glb, GenerateOptions options = {},
                                  const std::string& output_name = "out.glb") {
     const TempFolder folder;
@@ -40,7 +40,7 @@ inline CompressedRun generateAll(const Bytes& glb, GenerateOptions options = {},
     return outcome;
 }
 
-/// Changes each byte of the model's buffer in three ways: every run must succeed, or fail with a precise error.
+/// Changes each byte of the model's buffer in three ways. Every run must either succeed or fail with a precise error.
 template <class Model>
 void expectOrderWhateverByteIsChanged(const Model& sound) {
     std::size_t refused = 0;

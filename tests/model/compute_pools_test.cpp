@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pools are computed in parallel, without any effect on the file.
+// Pools of vertices are computed in parallel. This has no effect on the file.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -20,7 +20,7 @@ using test::TempFolder;
 
 constexpr int kU32 = 5125;
 
-/// Adds a primitive with separate accessors: a grid whose rows are partly mirrored, so that vertices are split.
+/// Adds a primitive with accessors of its own: a grid whose rows are partly mirrored, so that vertices are split.
 void addGrid(GltfBuilder& builder, std::uint32_t side, std::uint32_t seed, std::uint32_t wrong_index = 0) {
     std::vector<float> positions, normals, uvs;
     for (std::uint32_t y = 0; y <= side; ++y) {
@@ -46,7 +46,7 @@ void addGrid(GltfBuilder& builder, std::uint32_t side, std::uint32_t seed, std::
     builder.addPrimitive({{"POSITION", position}, {"NORMAL", normal}, {"TEXCOORD_0", uv}})["indices"] = index;
 }
 
-/// One pool that is larger than all others, and many small ones.
+/// Returns a model with one pool that is larger than all others, and many small ones.
 GltfBuilder manyPools() {
     GltfBuilder builder;
     for (std::uint32_t i = 0; i < 12; ++i) addGrid(builder, i == 5 ? 60 : 3 + 2 * (i % 4), i);

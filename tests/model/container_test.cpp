@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// GLB chunks and their JSON: what is accepted, and that every defect has its own message.
+// GLB chunks and their JSON: which files are accepted, and that every defect has its own message.
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
@@ -144,7 +144,7 @@ TEST(Document, RejectsWrongTypesWithTheirLocation) {
         {R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5124,"type":"VEC3","count":1}]})",
          "/accessors/0/componentType"},
         {R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5126,"count":1}]})", "/accessors/0/type"},
-        // Members that reading of geometry does not need.
+        // These members are not needed for reading geometry.
         {R"({"asset":{"version":"2.0"},"scene":"0"})", "/scene"},
         {R"({"asset":{"version":"2.0"},"scenes":[{"nodes":["0"]}]})", "/scenes/0/nodes/0"},
         {R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0.5}]})", "/nodes/0/mesh"},
@@ -195,7 +195,7 @@ TEST(Document, NamesTheEncodingOfWideText) {
 }
 
 TEST(Document, RejectsGltf1WithAMessage) {
-    // In version 1.0 the root contains objects where 2.0 has arrays.
+    // In glTF 1.0 the root contains objects where glTF 2.0 has arrays.
     const Error error = errorOf([] {
         gltf::parseDocument(toBytes(R"({"accessors":{},"meshes":{},"asset":{"version":"1.0"}})"), "model.gltf", {});
     });

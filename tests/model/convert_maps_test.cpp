@@ -66,7 +66,7 @@ SheetArrays arraysOf(const Sheet& sheet) {
     return arrays;
 }
 
-/// Adds a separate mesh for each sheet, with a node and the material.
+/// Adds a mesh for the sheet, with a node and the material.
 void addSheet(GltfBuilder& builder, const Sheet& sheet, int material) {
     const SheetArrays arrays = arraysOf(sheet);
     Json& json = builder.json();
@@ -107,7 +107,7 @@ void embedMap(GltfBuilder& builder, unsigned bits, const char* materials = R"([{
     json["materials"] = Json::parse(materials);
 }
 
-/// Returns the shading normals of each primitive, at points of each triangle, with bilinear filtering.
+/// Returns the shading normals at points of each triangle of each primitive, with bilinear filtering of the normal map.
 std::vector<std::vector<DVec3>> pictureOf(const std::string& file) {
     const DrawnScene drawn = readDrawnScene(file, {}, true);
     std::vector<std::vector<DVec3>> picture;
@@ -155,10 +155,10 @@ double meanApart(const std::vector<DVec3>& a, const std::vector<DVec3>& b) {
     return count == 0 ? 0 : sum / static_cast<double>(count);
 }
 
-/// A model with mikktspace tangents, and the result of its conversion.
+/// Report of a conversion, and differences between the shading of a model before and after it.
 struct Converted {
     GenerateReport report = {};
-    std::vector<double> off = {}, unconverted = {};  ///< by primitive
+    std::vector<double> off = {}, unconverted = {};  ///< mean error per primitive, with the new and the old map
 };
 
 Converted convertedModel(const TempFolder& folder, const std::string& input, GenerateOptions options) {
@@ -192,7 +192,7 @@ GenerateOptions methodOptions(Method method) {
 }
 
 TEST(ConvertMaps, KeepThePicture) {
-    // With 8 bits the old texels are not exact either, and half a step is 0.22 degrees.
+    // With 8 bits the old texels are not exact either: half a step is 0.22 degrees.
     for (const auto& [bits, most] : {std::pair{16U, 0.02}, {8U, 0.12}}) {
         for (const Method method : {Method::best, Method::lengyel, Method::area}) {
             const TempFolder folder;
@@ -382,12 +382,12 @@ TEST(ConvertMaps, RejectsOptionsThatChangeThePictureOnPurpose) {
     }
 }
 
-/// Real models with 8-bit maps: no picture differs more from the original than with the old maps, except invisibly, and
-/// large changes are undone.
+/// Real models with 8-bit maps: converted maps must not differ more from the original shading than the old maps do,
+/// except invisibly, and large changes are undone.
 TEST(ConvertMaps, KeepThePicturesOfModels) {
     struct Model {
         const char* path;
-        double most;  ///< upper limit: the mean error over primitives with the unconverted maps
+        double most;  ///< maximum ratio of the mean error over primitives to the one with the unconverted maps
     };
     for (const Model& model :
          {Model{"features/DuplicateMeshes/duplicate_meshes.gltf", 1.02},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// New glTF documents: the JSON of each accessor, and the position of its bytes.
+// Creation of glTF documents: the JSON of each accessor, and the position of its bytes.
 #include "model/gltf/document_builder.h"
 
 #include <gtest/gtest.h>

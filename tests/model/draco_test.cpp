@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draco-compressed primitives: decoding, encoding again without changing values, and rejected data.
+// Draco-compressed primitives: decoding, encoding without changing values, and rejected data.
 #include <draco/compression/decode.h>
 #include <draco/compression/expert_encode.h>
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ using test::shared;
 
 constexpr int kU16 = 5123, kFloat = 5126;
 
-/// A bumpy grid of 4 x 4 quads with a UV map that is mirrored at its middle column.
+/// Returns a bumpy grid of 4 x 4 quads with a UV map that is mirrored at its middle column.
 DracoMesh grid() {
     DracoMesh mesh;
     std::vector<float> positions, normals, uvs;
@@ -57,7 +57,8 @@ DracoMesh grid() {
     return mesh;
 }
 
-/// Accessors 0 POSITION, 1 NORMAL, 2 TEXCOORD_0, 3 indices, all without a view; the compressed data is view 0.
+/// Returns a model with the accessors 0 POSITION, 1 NORMAL, 2 TEXCOORD_0 and 3 indices, none of which has a view. The
+/// compressed data is view 0.
 GltfBuilder model(const DracoMesh& of) {
     DracoMesh mesh = of;
     Bytes data;
@@ -144,7 +145,7 @@ TEST(DracoKeep, ChangesNoValueAndNoRoundingOfWhatItEncodesAgain) {
 }
 
 TEST(Draco, DecodesWhatItEncodesVeryWell) {
-    // A flat grid with one normal: compressed triangles would take fewer bytes than decoders accept.
+    // A flat grid with one normal. Compressed triangles would take so few bytes that decoders would reject them.
     constexpr std::uint32_t kSize = 100;
     DracoMesh mesh;
     std::vector<float> positions, normals;
@@ -186,7 +187,8 @@ TEST(DracoKeep, KeepsMorphTargetsOutsideTheData) {
     EXPECT_TRUE(readAccessor(outcome.after, primitive.targets.at(0).at(0).second).view.has_value());
 }
 
-/// Two primitives that share their vertices; no primitive uses the last vertex. Target 0 moves it the farthest.
+/// Returns a model of two primitives that share their vertices. No triangle uses the last vertex, which target 0 moves
+/// the farthest.
 GltfBuilder sharedVertices() {
     GltfBuilder builder;
     builder.addFloats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 9, 9, 9}, 3);
@@ -216,11 +218,11 @@ TEST(DracoPack, BoundsOfTargetsFollowTheVerticesThatStay) {
 
 TEST(DracoPack, EncodesDisconnectedMeshesWithUnusedVertices) {
     GltfBuilder builder = sharedVertices();
-    // Flat normals and a mirrored UV map give every corner a separate vertex.
+    // With flat normals and a mirrored UV map, every corner needs a vertex of its own.
     builder.json()["meshes"][0]["primitives"].erase(0);
     Json& primitive = builder.json()["meshes"][0]["primitives"][0];
     primitive.erase("targets");
-    builder.json()["accessors"][0]["count"] = 4;  // the last one is in no triangle
+    builder.json()["accessors"][0]["count"] = 4;  // removes the last vertex, which no triangle uses
     builder.json()["accessors"][1]["count"] = 4;
     primitive["indices"] = builder.addAccessor(std::vector<std::uint16_t>{0, 1, 2, 2, 1, 0}, kU16, "SCALAR", 6);
     const CompressedRun outcome = generateAll(builder.glb(), {.storage = {.compression = Compression::draco}});
@@ -317,10 +319,10 @@ TEST(DracoHostile, RejectsTruncatedData) {
 TEST(DracoHostile, SurvivesEveryFlippedByte) { expectOrderWhateverByteIsChanged(model(grid())); }
 
 TEST(DracoHostile, RejectsCountsInTheDataBeforeAllocating) {
-    // The header, then the numbers of faces and points as written by the library; nothing follows.
+    // The header, then the numbers of faces and points in the library's encoding, and nothing else.
     for (const std::uint8_t method : {std::uint8_t{0}, std::uint8_t{1}}) {
         Bytes data = {'D', 'R', 'A', 'C', 'O', 2, 2, 1, method, 0, 0};
-        if (method == 1) data.push_back(0);  // the type of traversal
+        if (method == 1) data.push_back(0);  // type of the traversal
         for (int i = 0; i < 2; ++i) data.insert(data.end(), {0xff, 0xff, 0xff, 0xff, 0x0f});
         DracoMesh mesh;
         const std::string fault = decodeDraco(data, {.corner_count = 300, .point_count = 100, .bytes = 10000}, mesh);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// generate with flip_green: normal maps of models, wherever they are stored.
+// generate with flip_green: inverting normal maps of models, wherever the maps are stored.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,8 @@ const RgbImage& downMap() {
     return map;
 }
 
-/// A square over the whole image, with correct tangents for glTF; material 0.
+/// Returns a model with a square that covers the whole image, and material 0. `sign`: of its tangents; 1 is correct in
+/// glTF.
 GltfBuilder square(float sign = 1) {
     GltfBuilder builder;
     const std::size_t indices = builder.addAccessor(std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}, 5125, "SCALAR", 6);
@@ -70,7 +71,7 @@ std::multiset<std::string> codes(const std::string& file) {
 }
 using Codes = std::multiset<std::string>;
 
-/// Returns the bytes of an image embedded in a GLB.
+/// Returns the bytes of an image that is embedded in a GLB.
 Bytes imageOf(const std::string& file, std::size_t image) {
     const gltf::Document document = gltf::loadDocument(file, {});
     EXPECT_TRUE(document.json["images"][image].contains("bufferView"));
@@ -140,7 +141,7 @@ TEST(FlipMaps, KeepsMapsThatInvertedSignsCancel) {
     const GenerateReport kept = generate(in, out);
     EXPECT_FALSE(kept.changed || kept.normal_maps[0].flipped);
     EXPECT_NE(kept.normal_maps[0].reason.find("cancel out"), std::string::npos);
-    // New normals keep inverted signs.
+    // If only normals are recomputed, tangents keep their inverted signs.
     GenerateOptions normals;
     normals.normals.overwrite = true;
     EXPECT_FALSE(generate(in, out, normals).normal_maps[0].flipped);
@@ -150,7 +151,8 @@ TEST(FlipMaps, KeepsMapsThatInvertedSignsCancel) {
     EXPECT_EQ(codes(out), Codes{});
 }
 
-/// The map is correct for one mesh but not for the other: correct rendering must not be broken.
+/// The map is correct for one mesh but not for the other. It is kept, because the mesh that renders correctly must stay
+/// correct.
 TEST(FlipMaps, KeepsMapsThatMatchSomeMeshes) {
     const TempFolder folder;
     GltfBuilder builder = square(-1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// generateFile on small generated documents: sharing, splitting, wider indices, in-place replacement, rejected input,
+// generateFile on small generated documents: sharing, splitting, wider indices, replacement in place, rejected input,
 // and reports.
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ TEST(GenerateGltf, AddsOnlyTangentsWhereNothingIsSplit) {
     EXPECT_EQ(outcome.after.json["bufferViews"].size(), 5u);
     EXPECT_EQ(outcome.after.json["bufferViews"][4]["target"], 34962);
     EXPECT_EQ(outcome.after.json["meshes"][0]["primitives"][0]["indices"], 3);
-    // u increases along x; v points down in glTF, so B = w cross(N, T) points to decreasing v: w = +1.
+    // u increases along x. v points down in glTF, so B = w cross(N, T) points against increasing v, and w is +1.
     for (const Vec4& tangent : readTangents(outcome.after, outcome.primitives[0]))
         EXPECT_EQ(tangent, (Vec4{1, 0, 0, 1}));
 }
@@ -40,11 +40,11 @@ TEST(GenerateGltf, SplitsAndCarriesEveryAttributeAlong) {
     for (std::size_t i = 0; i < joints.size(); ++i) joints[i] = ids[i] = static_cast<std::uint8_t>(i);
     const std::size_t joint = builder.addAccessor(joints, kU8, "VEC4", count);
     const std::size_t weight = builder.addFloats(std::vector<float>(count * 4, 0.25f), 4);
-    // Three bytes with a stride of four, and a custom name.
+    // A custom attribute whose elements are three bytes with a stride of four.
     const std::size_t custom = builder.addAccessor(ids, kU8, "VEC3", count);
     builder.json()["bufferViews"].back()["byteStride"] = 4;
     builder.json()["accessors"].back()["normalized"] = true;
-    // A morph target whose accessor is sparse and has no bufferView.
+    // Deltas of a morph target in an accessor that is sparse and has no buffer view.
     builder.addView(test::bytesOfValues<std::uint16_t>({7, 12}));
     builder.addView(test::bytesOfValues<float>({1, 2, 3, 4, 5, 6}));
     const std::size_t views = builder.json()["bufferViews"].size();
@@ -61,7 +61,7 @@ TEST(GenerateGltf, SplitsAndCarriesEveryAttributeAlong) {
     const PrimitiveReport& report = outcome.report.primitives.at(0);
     EXPECT_EQ(report.vertices_before, 25u);
     EXPECT_EQ(report.vertices_after, 30u) << "the middle column of 5 vertices is doubled";
-    // POSITION is also a morph target: both still refer to one accessor.
+    // POSITION is also a morph attribute. Both still refer to one accessor.
     EXPECT_EQ(outcome.primitives[0].find("POSITION"), outcome.primitives[0].targets[1][0].second);
     EXPECT_EQ(outcome.after.json["accessors"].size(), outcome.before.json["accessors"].size() + 3)
         << "tangents and deltas of two targets; other entries are re-used";
@@ -109,7 +109,7 @@ TEST(GenerateGltf, ComputesPrimitivesOfOnePoolTogether) {
 }
 
 TEST(GenerateGltf, TurnsSplitStripsAndFansIntoTriangles) {
-    // A ribbon of 4 quads as a strip without indices, mirrored at its middle.
+    // A ribbon of 4 quads, mirrored at its middle, as a strip without indices.
     GltfBuilder builder;
     std::vector<float> positions, normals, uvs;
     for (int x = 0; x <= 4; ++x) {
@@ -180,7 +180,7 @@ TEST(GenerateGltf, LeavesNoOldBytesBehindWhenASplitReplacesThem) {
     const std::size_t vertices = outcome.report.primitives.at(0).vertices_after;
     EXPECT_GT(vertices, outcome.report.primitives.at(0).vertices_before);
     const std::size_t needed = vertices * (12 + 12 + 8 + 16) + outcome.primitives[0].corner_count * 2;
-    // Cuts are multiples of 8 bytes, so a few bytes may remain at each of the five accessors.
+    // Only multiples of 8 bytes are cut, so a few bytes may remain at each of the five accessors.
     EXPECT_LT(outcome.after.buffers[0].bytes.size(), needed + 5 * 16);
 }
 
@@ -268,7 +268,7 @@ TEST(GenerateGltf, LeavesDataUrisDataUris) {
     EXPECT_EQ(after.style.indent, 1);
 }
 
-/// Writes the grid as .gltf with its buffer and an image in files.
+/// Writes the grid as a .gltf file, with its buffer and an image in separate files.
 void writeWithFiles(const TempFolder& folder, const std::string& name, GltfBuilder builder,
                     const char* image_uri = "tex/image.png") {
     folder.write("in/geo metry.bin", builder.bytes());
@@ -382,7 +382,7 @@ TEST(GenerateGltf, KeepsTheUriOfAMissingImageAndWarns) {
     }
 }
 
-/// Exporters write the folder of a texture that was never saved.
+/// Some exporters write the path of a folder for a texture that was never saved.
 TEST(GenerateGltf, TreatsAFolderInsteadOfAnImageAsMissing) {
     const TempFolder folder;
     writeWithFiles(folder, "a.gltf", gridModel(Grid(4)), "tex/.");
@@ -513,8 +513,8 @@ TEST(GenerateGltf, VerticesWithoutDataCostNoMemory) {
     EXPECT_TRUE(report) << "it has no UVs, so nothing is read";
 }
 
-/// A grid of 5 x 5 vertices whose signs are inverted. The triangles of the first rows have no UV area, and their signs
-/// are 1.
+/// Returns a grid of 5 x 5 vertices whose signs are inverted. `flat_rows`: number of rows of triangles without UV area,
+/// whose signs are 1.
 GltfBuilder invertedGrid(std::size_t flat_rows) {
     Grid grid(4, false);
     if (flat_rows != 0) std::fill_n(grid.uvs.begin(), 10 * (flat_rows + 1), 0.5f);
@@ -525,7 +525,8 @@ GltfBuilder invertedGrid(std::size_t flat_rows) {
     return builder;
 }
 
-/// The normal map may have been created for these signs. Vertices whose UVs determine no sign do not count.
+/// Inverted signs are kept, because the normal map may have been made for them. Vertices whose UVs determine no sign do
+/// not matter.
 TEST(GenerateGltf, KeepsInvertedSignsWhenNormalsAreRecomputed) {
     for (const std::size_t flat_rows : {0, 2}) {
         for (const ExistingTangents existing : {ExistingTangents::keep, ExistingTangents::replace}) {
@@ -551,7 +552,7 @@ TEST(GenerateGltf, KeepsInvertedSignsWhenNormalsAreRecomputed) {
     }
 }
 
-/// A grid on a slope at five million units, where the spacing of floats is half a unit.
+/// Returns a grid on a slope, five million units from the origin, where the spacing of floats is half a unit.
 GltfBuilder farGrid(bool has_normals) {
     Grid grid(8, false);
     for (std::size_t i = 0; i < grid.positions.size(); ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A small model, and generateFile on models created in a test.
+// A small model, and a function that runs generateFile on models created in a test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ class Grid {
     std::size_t size_;
 };
 
-/// POSITION 0, NORMAL 1, TEXCOORD_0 2, indices 3; one primitive with a normal map.
+/// Returns a model of one primitive with a normal map. Its accessors are POSITION 0, NORMAL 1, TEXCOORD_0 2, indices 3.
 inline GltfBuilder gridModel(const Grid& grid, int index_type = kU16) {
     GltfBuilder builder;
     builder.addFloats(grid.positions, 3);
@@ -70,7 +70,7 @@ inline GltfBuilder gridModel(const Grid& grid, int index_type = kU16) {
     return builder;
 }
 
-/// Adds tangents that are all wrong, in accessor 4.
+/// Returns gridModel with wrong tangents in accessor 4.
 inline GltfBuilder withTangents(const Grid& grid) {
     GltfBuilder builder = gridModel(grid);
     const std::size_t tangent = builder.addFloats(std::vector<float>(grid.vertexCount() * 4, 0.5f), 4);
@@ -88,7 +88,7 @@ struct GenerateRun {
     Bytes file;
 };
 
-/// Generates from `builder` as GLB, compares everything that must be preserved, and runs again.
+/// Runs generateFile on `builder` as a GLB, checks everything that must be preserved, and runs again.
 inline GenerateRun run(const GltfBuilder& builder, GenerateOptions options = {},
                        const std::vector<gltf::ExtraChunk>& chunks = {}) {
     const TempFolder folder;

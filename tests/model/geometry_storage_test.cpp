@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The various ways in which glTF stores and shares geometry. `run` compares every attribute at every corner, and runs
-// again.
+// generate again on its output.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ void expectUnitTangents(const GenerateRun& outcome, std::size_t primitive = 0) {
     }
 }
 
-/// Returns vertices in sequence as a strip or fan.
+/// Returns a model whose vertices, in the given order, form a strip or a fan. `mode`: of the glTF primitive.
 GltfBuilder strung(int mode, const std::vector<Vec2>& places, const std::vector<Vec2>& uvs, bool is_indexed) {
     GltfBuilder builder;
     std::vector<float> positions, normals, coordinates;
@@ -40,7 +40,7 @@ GltfBuilder strung(int mode, const std::vector<Vec2>& places, const std::vector<
     return builder;
 }
 
-/// Returns a ribbon of quads along x as one strip, mirrored at its middle or not.
+/// Returns a ribbon of quads along x as one strip. `is_mirrored`: its UVs are mirrored at its middle.
 GltfBuilder ribbon(bool is_mirrored, bool is_indexed) {
     std::vector<Vec2> places, uvs;
     for (int x = 0; x <= 4; ++x) {
@@ -52,7 +52,7 @@ GltfBuilder ribbon(bool is_mirrored, bool is_indexed) {
     return strung(5, places, uvs, is_indexed);
 }
 
-/// Returns four triangles around the origin; `is_mirrored`: u increases away from the y axis on both sides.
+/// Returns a fan of four triangles around the origin. `is_mirrored`: u increases away from the y axis on both sides.
 GltfBuilder fan(bool is_mirrored, bool is_indexed) {
     const std::vector<Vec2> places = {{0, 0}, {2, 0}, {1, 1}, {0, 2}, {-1, 1}, {-2, 0}};
     std::vector<Vec2> uvs;
@@ -97,8 +97,8 @@ TEST(GeometryStorage, PrimitiveRestartIsRejectedInOneSentence) {
 }
 
 TEST(GeometryStorage, TheLargestIndexIsAVertexIfItExists) {
-    // glTF forbids this index; some viewers restart the primitive there, others draw it: tspace reads it as an index,
-    // and fixes it in a split.
+    // glTF forbids the largest index (255 here). Some viewers restart the primitive at it, others draw it. tspace reads
+    // it as an index, and writes wider indices when it splits vertices.
     const GenerateRun outcome = run(gridModel(Grid(15), kU8));
     EXPECT_EQ(outcome.report.primitives.at(0).vertices_before, 256u);
     EXPECT_EQ(readAccessor(outcome.after, *outcome.primitives[0].indices).component, gltf::ComponentType::u16);
@@ -119,7 +119,7 @@ TEST(GeometryStorage, TheSameGeometryInManyMeshesIsComputedOnceAndStaysShared) {
 }
 
 TEST(GeometryStorage, PiecesOfOneVertexArrayShareItsSplit) {
-    // Left and right half of the grid as two primitives with separate index lists.
+    // The left and the right half of the grid are two primitives, each with its own index list.
     const Grid grid(4);
     GltfBuilder builder = gridModel(grid);
     std::vector<std::uint16_t> halves[2];
@@ -139,7 +139,7 @@ TEST(GeometryStorage, PiecesOfOneVertexArrayShareItsSplit) {
 }
 
 TEST(GeometryStorage, PrimitivesThatShareSomeAccessorsAreSeparatedOnlyIfNecessary) {
-    // Shared positions and normals, separate UVs: mirrored for one primitive, not for the other.
+    // Two primitives share positions and normals but not UVs, which are mirrored for one primitive only.
     GltfBuilder builder = gridModel(Grid(4));
     const std::size_t straight = builder.addFloats(Grid(4, false).uvs, 2);
     Json& primitives = builder.json()["meshes"][0]["primitives"];
@@ -194,8 +194,8 @@ TEST(GeometryStorage, SkinsGoAlongWithASplit) {
 }
 
 TEST(GeometryStorage, InstancesKeepTheirPositionsEvenIfSharedWithVertices) {
-    // One instance at each vertex of the mesh itself: both use the same accessor, and a split must not move the
-    // instances.
+    // An instance of the mesh is at each of its own vertices, so both use the same accessor. Splitting vertices must
+    // not change the instances.
     GltfBuilder builder = gridModel(Grid(4));
     builder.json()["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
     builder.json()["nodes"] =
@@ -230,7 +230,7 @@ TEST(GeometryStorage, AccessorsWithoutAViewAreZeros) {
 
 TEST(GeometryStorage, SparsePositionsAndUvsCountWithTheirReplacements) {
     GltfBuilder builder = gridModel(Grid(4, false));
-    // All u and v are swapped by sparse values over dense ones: the map is mirrored and rotated.
+    // Sparse values over dense ones exchange all u and v, so that the UV map is mirrored and rotated.
     const Grid grid(4, false);
     std::vector<float> swapped;
     std::vector<std::uint8_t> places;

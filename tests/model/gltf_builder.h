@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small glTF documents created in the test itself.
+// Builds small glTF documents for tests.
 #pragma once
 
 #include <optional>
@@ -30,12 +30,12 @@ template <class T, class Allocator = std::allocator<T>>
 Bytes bytesOfValues(const std::vector<T, Allocator>& values) {
     const auto* first = reinterpret_cast<const std::uint8_t*>(values.data());
     Bytes bytes(first, first + values.size() * sizeof(T));
-    // Vectors consist of floats.
+    // Vectors consist of floats, so floats are converted.
     convertLittleEndian(bytes, std::is_arithmetic_v<T> ? sizeof(T) : sizeof(float));
     return bytes;
 }
 
-/// A document with one buffer, to which complete accessors are appended.
+/// A document with one buffer. Accessors are appended with their bytes.
 class GltfBuilder {
   public:
     GltfBuilder() {
@@ -99,7 +99,7 @@ inline gltf::Document parse(const GltfBuilder& builder) {
     return gltf::parseDocument(toBytes(builder.gltfText()), "model.gltf", {});
 }
 
-/// Returns the error that `body` throws; ErrorCode::ok if it succeeds.
+/// Returns the error that `body` throws, or the code ErrorCode::ok if it succeeds.
 template <class Body>
 Error errorOf(Body&& body) {
     const Result<Done> result = atFileBorder([&]() -> Result<Done> {

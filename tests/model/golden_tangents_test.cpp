@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares the glTF convention with tangents shipped by other tools: direction within 1 degree and the same sign at
-// every corner of the files for which this was measured to be true.
+// Compares tangents for the glTF convention with those that other tools shipped: at every corner the direction is
+// within 1 degree and the sign is the same. This was found to be true of the files listed here.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,12 +19,12 @@ using test::shared;
 
 struct GoldenFile {
     const char* name;
-    float sign;  ///< shipped sign times computed sign
+    float sign;  ///< ratio of the shipped sign to the computed sign
 };
 
 void PrintTo(const GoldenFile& file, std::ostream* out) { *out << file.name; }
 
-// TwoSidedPlane stores the opposite sign, contrary to the specification.
+// The signs of TwoSidedPlane are inverted, contrary to the specification.
 constexpr GoldenFile kFiles[] = {
     {"khronos/TwoSidedPlane.glb", -1},
     {"khronos/SheenCloth.glb", 1},
@@ -47,7 +47,7 @@ TEST_P(ShippedTangents, AgreeWithOursOnEveryCorner) {
     GenerateOptions options;
     options.selection.all = true;
     options.selection.existing = ExistingTangents::replace;
-    // SheenCloth has a mirroring transform, and its tangents follow the untransformed UVs.
+    // SheenCloth has a mirroring texture transform, but its tangents follow the untransformed UVs.
     options.tangents.texture_transform = TextureTransform::ignore;
     const auto report = generateFile(shared(name).string(), output, options);
     ASSERT_TRUE(report) << report.error().message;

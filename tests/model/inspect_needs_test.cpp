@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Needs reported by inspect: every use of tangents, transforms, variants, and how often a mesh is drawn.
+// Needs that inspect reports: every use of tangents, transforms, variants, and how often a mesh is drawn.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -80,8 +80,8 @@ TEST(InspectNeeds, CountsNodesAndInstances) {
     EXPECT_EQ(bad.error().place, "/nodes/2/extensions/EXT_mesh_gpu_instancing/attributes/TRANSLATION");
 }
 
-/// Returns a wavy sheet of irregular triangles that are about 5 units wide. Positions are rounded to integers, and
-/// stored as 16-bit integers or as floats.
+/// Returns a wavy sheet of irregular triangles, each about 5 units wide. Positions are rounded to integers and stored
+/// as 16-bit integers or as floats.
 GltfBuilder roundedSheet(bool as_floats) {
     constexpr int kSide = 60;
     GltfBuilder builder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers have a decimal point in any locale: in options, files, and messages.
+// Numbers have a decimal point in every locale: in options, files, and messages.
 #include <gtest/gtest.h>
 
 #include <cmath>

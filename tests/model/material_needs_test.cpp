@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which parts of a primitive's materials need tangents, and for which UVs.
+// Which parts of a primitive's materials need tangents, and for which UV sets.
 #include "model/gltf/material_needs.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using test::errorOf;
 using test::GltfBuilder;
 using test::parse;
 
-/// Returns one primitive with material 0; `more`: the other materials.
+/// Returns a model of one primitive with material 0. `more`: the other materials.
 GltfBuilder withMaterial(const std::string& material, const std::string& more = "",
                          const std::string& primitive_extensions = "{}") {
     GltfBuilder builder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The memory that a file may use, and how many tasks fit into it together.
+// The memory that a file may use, and the number of tasks that fit into it together.
 #include "model/io/memory_budget.h"
 
 #include <gtest/gtest.h>

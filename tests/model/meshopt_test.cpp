@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshopt-compressed buffer views: decoding, unchanged data, encoding again, and rejected data.
+// Meshopt-compressed buffer views: decoding, encoding, data that must not change, and rejected data.
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>
 #include <rapidcheck/gtest.h>
@@ -43,10 +43,10 @@ class PackedModel {
         Json& json = builder_.json();
         json["buffers"] = Json::array({Json::object(), Json::object()});
         json["extensionsUsed"] = json["extensionsRequired"] = {extension_};
-        builder_.addView(Bytes(4, 0));  // an uncompressed view first, so that no offset is 0
+        builder_.addView(Bytes(4, 0));  // comes first and is not compressed, so that no offset is 0
     }
 
-    /// `rows`: the data before the filter is applied.
+    /// Adds a compressed view and returns its index. `rows`: the data before the filter is applied.
     std::size_t addView(MeshoptCoding coding, const Bytes& rows, const char* mode, const char* filter = nullptr) {
         coding.stride = rows.size() / coding.count;
         coding.is_khr = extension_ == kKhrMeshopt;
@@ -130,7 +130,7 @@ RC_GTEST_PROP(Meshopt, ReadsRowsOfIndicesAsTheyWereEncoded, (std::vector<std::ui
 }
 
 TEST(Meshopt, ReadsTriangles) {
-    // A strip of triangles, each sharing an edge with the previous one: the codec rotates none of them.
+    // A fan of triangles, each of which shares an edge with the previous one. The codec does not rotate their corners.
     std::vector<std::uint32_t> indices;
     for (std::uint32_t i = 0; i < 40; ++i) {
         const std::vector<std::uint32_t> fan = {0, i + 1, i + 2};
@@ -158,7 +158,7 @@ RC_GTEST_PROP(Meshopt, EncodesTrianglesSoThatNoCornerTurns, (std::vector<std::ui
     RC_ASSERT(decoded == rows);
 }
 
-/// Returns unit vectors and quaternions, four floats each.
+/// Returns `count` unit vectors or quaternions, with four floats each.
 std::vector<float> directions(std::size_t count) {
     std::vector<float> values;
     for (std::size_t i = 0; i < count; ++i) {
@@ -219,8 +219,9 @@ TEST(Meshopt, AppliesTheExponentialFilter) {
     for (std::size_t i = 0; i < kCount; ++i) EXPECT_NEAR(decoded[i].y, expected[i * 3 + 1], 0.001);
 }
 
-/// A grid of 4 x 4 quads with a UV map that is mirrored at the middle column, so that its 5 vertices are split. Normals
-/// have the octahedral filter, positions the exponential one. POSITION 0, NORMAL 1, TEXCOORD_0 2, indices 3.
+/// Returns a grid of 4 x 4 quads with a UV map that is mirrored at the middle column, whose 5 vertices are therefore
+/// split. Normals are stored with the octahedral filter, and positions with the exponential one. Accessors: POSITION 0,
+/// NORMAL 1, TEXCOORD_0 2, indices 3.
 PackedModel packedGrid(const char* extension = kExtMeshopt) {
     constexpr std::size_t kCount = 25;
     std::vector<float> positions, normals, uvs;
@@ -274,7 +275,7 @@ TEST(MeshoptKeep, EncodesSplitVerticesWithTheirFilter) {
 
 TEST(MeshoptPack, LeavesNoBufferEmpty) {
     const test::TempFolder folder;
-    // All of buffer 0 is compressed in buffer 1.
+    // Buffer 1 contains the compressed data of all of buffer 0.
     Json json = Json::parse(R"({"asset":{"version":"2.0"},
         "accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3,"min":[0,0,0],"max":[1,1,0]},
                      {"bufferView":1,"componentType":5123,"type":"SCALAR","count":3}],
@@ -295,7 +296,7 @@ TEST(MeshoptPack, LeavesNoBufferEmpty) {
 
 TEST(MeshoptKeep, KeepsCompressedBytesOfUnchangedViews) {
     PackedModel model = packedGrid();
-    // UVs that are not mirrored: nothing is split, and only tangents are new.
+    // These UVs are not mirrored, so nothing is split, and only tangents are new.
     std::vector<float> uvs;
     for (std::size_t i = 0; i < 25; ++i)
         uvs.insert(uvs.end(), {static_cast<float>(i % 5), static_cast<float>(4 - i / 5)});
@@ -346,7 +347,7 @@ TEST(MeshoptKeep, UpdatesBothUncompressedAndCompressedData) {
 
 TEST(MeshoptKeep, LeavesNoOldCompressedBytesBehind) {
     const CompressedRun outcome = generateAll(packedGrid().glb());
-    std::size_t compressed = 4;  // the uncompressed view at the start
+    std::size_t compressed = 4;  // 4 bytes of the uncompressed view at the start
     for (std::size_t i = 1; i < outcome.after.json["bufferViews"].size(); ++i)
         compressed += readMeshoptView(outcome.after, i)->byte_count;
     EXPECT_LT(outcome.after.buffers[0].bytes.size(), compressed + 16 * 6) << "a little stays at each cut";
@@ -409,7 +410,7 @@ TEST(MeshoptHostile, NamesTheLocationOfEveryWrongMember) {
         EXPECT_EQ(error.place.rfind("/bufferViews/1/extensions/EXT_meshopt_compression", 0), 0u) << error.place;
     };
     expectRefused("buffer", 2);
-    expectRefused("buffer", 1);  // the fallback itself
+    expectRefused("buffer", 1);  // the fallback buffer itself, which has no data
     expectRefused("buffer", "0");
     expectRefused("byteOffset", 1000000);
     expectRefused("byteLength", 1000000);
@@ -422,7 +423,7 @@ TEST(MeshoptHostile, NamesTheLocationOfEveryWrongMember) {
     expectRefused("count", 0);
     expectRefused("count", 24);
     expectRefused("count", 4294967295u);
-    expectRefused("count", 1537228672809129302ull);  // times 12 exceeds 2^64
+    expectRefused("count", 1537228672809129302ull);  // 12 times this number exceeds 2^64
     expectRefused("mode", "TRIANGLES");
     expectRefused("mode", "VERTICES");
     expectRefused("mode", 3);

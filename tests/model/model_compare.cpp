@@ -40,13 +40,13 @@ class Comparison {
         if (!same && found_.size() < 20) found_.push_back(what);
     }
 
-    /// Returns the members in order, without those that an edit may change.
+    /// Returns the object without the members that an edit may change. The order of the others is kept.
     static Json without(Json object, const std::vector<std::string>& members) {
         for (const std::string& name : members) object.erase(name);
         return withoutCompression(std::move(object));
     }
 
-    /// Compression may change; decompressed data is compared elsewhere.
+    /// Returns the object without its compression, which may change. Decompressed data is compared elsewhere.
     static Json withoutCompression(Json object) {
         if (!object.is_object() || !object.contains("extensions")) return object;
         for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression"})
@@ -63,7 +63,8 @@ class Comparison {
         return primitive;
     }
 
-    /// Kept tangents may have got deltas in morph targets that had none.
+    /// Returns the primitive without new tangent deltas: tangents that are kept may get deltas in morph targets that
+    /// had none.
     static Json withoutNewDeltas(Json primitive, const Json& old) {
         if (!old.contains("targets")) return primitive;
         for (std::size_t t = 0; t < std::min(old["targets"].size(), primitive["targets"].size()); ++t) {
@@ -155,7 +156,8 @@ class Comparison {
         }
     }
 
-    /// Deltas of computed attributes are new; all others must match at their corners.
+    /// Compares the attributes of a morph target. Deltas of computed attributes are new; all others must match at their
+    /// corners.
     void compareTarget(const AttributeList& a, const std::vector<std::uint32_t>& old_corners, const AttributeList& b,
                        const std::vector<std::uint32_t>& new_corners, bool normals_generated,
                        const std::string& place) {
@@ -199,7 +201,7 @@ class Comparison {
         }
     }
 
-    /// Compares accessors that no primitive uses, and those of unchanged primitives.
+    /// Compares the accessors that no primitive uses, and those of primitives that must not change.
     void compareUntouchedAccessors() {
         std::set<std::size_t> by_primitives;
         for (const Primitive& primitive : readPrimitives(before_)) {

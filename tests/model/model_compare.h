@@ -10,10 +10,10 @@
 
 namespace tspace::test {
 
-/// Returns unexpected differences; empty if there are none. `report` tells which primitives were computed.
-/// `is_repacked`: the lists of extensions may differ too. Compares the JSON including its order of members, every
+/// Returns the unexpected differences, or an empty list. Compares the JSON including the order of members, every
 /// accessor of an unchanged primitive by its bytes, every attribute and morph target of a changed primitive corner by
-/// corner, and every image by its bytes.
+/// corner, and every image by its bytes. `report` says which primitives were computed. `is_repacked`: the lists of
+/// extensions may differ too.
 std::vector<std::string> differences(const gltf::Document& before, const gltf::Document& after,
                                      const GenerateReport& report, bool is_repacked = false);
 

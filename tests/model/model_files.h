@@ -12,8 +12,8 @@
 
 namespace tspace::test {
 
-/// Returns the .glb and .gltf files below a folder of the shared data, relative to it and sorted; one empty name if the
-/// folder is absent, so that a test is reported as skipped.
+/// Returns the .glb and .gltf files below a folder of the shared data, as sorted relative paths. If the folder is
+/// absent, returns one empty name, so that a test is reported as skipped.
 inline std::vector<std::string> modelFiles(const std::string& folder) {
     std::vector<std::string> names;
     const std::filesystem::path root = shared(folder);

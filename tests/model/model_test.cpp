@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A model and its arrays: caching, the charged budget, and recomputation after a change.
+// A model and its arrays: caching, how they count toward the memory budget, and recomputation after a change.
 #include "model/gltf/model.h"
 #include "model/gltf/load_document.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 using test::GltfBuilder;
 
-/// Two primitives with shared positions.
+/// Returns a model of two primitives that share their positions.
 Model twoPrimitives(const FileOptions& options = {}) {
     GltfBuilder builder;
     builder.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs generateFile on every model of the shared data: all other data is preserved, and a second run changes no byte.
+// Runs generateFile on every model of the shared data: all other data is preserved, and a second run on the output
+// changes no byte.
 #include <gtest/gtest.h>
 #include <algorithm>
 
@@ -28,12 +29,13 @@ class Models : public testing::TestWithParam<std::string> {
         options.selection.all = true;
         options.selection.existing = ExistingTangents::replace;
         options.tangents.compute.method = method;
-        // Lengyel's sums use vertex indices, so a split (which may be caused by repaired signs) changes them.
+        // Lengyel's sums depend on vertex indices, so they change if vertices are split, which repaired signs may
+        // cause.
         options.tangents.sanitize = method != Method::lengyel;
         return options;
     }
 
-    /// Generates into another folder and compares; then runs again on the output.
+    /// Generates into another folder and compares the models; then runs again on the output.
     void check(const std::string& output_name, Method method) {
         SCOPED_TRACE(output_name);
         const TempFolder folder;
@@ -84,7 +86,7 @@ TEST_P(Models, SurviveRepairAndStrip) {
     const auto report = generateFile(input_.string(), output, options);
     if (!report) GTEST_SKIP() << report.error().message;
     const auto before = gltf::loadDocument(input_, {}), after = gltf::loadDocument(output, {});
-    // Repair normalizes normals, and therefore changes them.
+    // --repair normalizes normals, so their bytes may differ.
     const bool scales_normals = hasFinding(input_.string(), FindingCode::normalsNotUnit);
     for (const std::string& difference : test::differences(before, after, *report)) {
         if (!scales_normals || !difference.ends_with(" has other bytes")) ADD_FAILURE() << difference;
@@ -96,10 +98,10 @@ TEST_P(Models, SurviveRepairAndStrip) {
     EXPECT_EQ(readFile(output), first);
 
     const auto checked = checkFile(output, {.images = false});
-    if (!checked && checked.error().code == ErrorCode::unsupportedFile) return;  // untouched compressed primitives
+    if (!checked && checked.error().code == ErrorCode::unsupportedFile) return;  // unchanged compressed primitives
     ASSERT_TRUE(checked) << checked.error().message;
     for (const Finding& finding : checked->findings) {
-        if (finding.severity != Severity::error) break;  // errors come first
+        if (finding.severity != Severity::error) break;  // findings are sorted by severity
         ADD_FAILURE() << finding.place << ": " << finding.message;
     }
 }
@@ -120,7 +122,7 @@ TEST_P(Models, AreUnchangedWithoutOverwriteIfNothingIsMissing) {
     }
 }
 
-/// Small models are sufficient, and fast.
+/// Returns small models, with which tests are fast.
 std::vector<std::filesystem::path> smallModels() {
     constexpr std::uintmax_t kSmall = 1u << 20;
     std::vector<std::filesystem::path> models;
@@ -133,7 +135,7 @@ std::vector<std::filesystem::path> smallModels() {
     return models;
 }
 
-/// A run on the output itself changes no byte.
+/// Checks that a run on the output changes no byte.
 void expectNoChangeAgain(const std::string& output, const GenerateOptions& options) {
     const Bytes first = readFile(output);
     const auto second = generateFile(output, output, options);
@@ -187,8 +189,7 @@ INSTANTIATE_TEST_SUITE_P(Small, EveryPacking,
                                          Packing{Compression::meshopt, VectorFormat::snorm8},
                                          Packing{Compression::draco, VectorFormat::snorm16}));
 
-/// Running a method a second time, on its own output, changes nothing. Only small models are used, to keep the test
-/// fast.
+/// A second run of a method on its own output changes nothing. Only small models are used, to keep the tests fast.
 class EveryMethod : public testing::TestWithParam<Method> {};
 
 TEST_P(EveryMethod, ChangesNothingTheSecondTime) {

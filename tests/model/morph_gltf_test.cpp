@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Morph targets of glTF files with generateFile: which ones get deltas, their storage, and preserved data.
+// Morph targets of glTF files with generateFile: which targets get deltas, how deltas are stored, and which data is
+// preserved.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +18,7 @@ using gltf::Document;
 using gltf::Json;
 using namespace test;
 
-/// Returns offsets that lift the vertices for which `lifts(x, y)` is true, and shift them along y.
+/// Returns offsets that move the vertices for which `lifts(x, y)` is true, upward and along y.
 template <class Lifts>
 std::vector<float> lifted(const Grid& grid, Lifts&& lifts) {
     std::vector<float> offsets(grid.positions.size(), 0);
@@ -34,7 +35,7 @@ std::vector<float> allLifted(const Grid& grid) {
 }
 std::vector<float> noneLifted(const Grid& grid) { return std::vector<float>(grid.positions.size(), 0); }
 
-/// Returns gridModel with one target of positions per list.
+/// Returns gridModel with one morph target for each list of offsets of positions.
 GltfBuilder morphModel(const Grid& grid, const std::vector<std::vector<float>>& targets) {
     GltfBuilder builder = gridModel(grid);
     for (const std::vector<float>& offsets : targets) {
@@ -87,8 +88,8 @@ TEST(MorphGltf, GivesDeltasToTargetsThatMoveTheSurfaceOnly) {
     EXPECT_EQ(outcome.report.primitives[0].morph_target_count, 4u);
     EXPECT_EQ(outcome.report.primitives[0].morph_deltas_computed, 3u);
     EXPECT_EQ(outcome.report.primitives[0].vertices_after, 30u);
-    // All triangles are flat in v, and u is 0.25 per unit of x, so T does not change, although points are displaced by
-    // an amount that depends on y.
+    // All triangles keep v, and u changes by 0.25 per unit of x, so T does not change, although points move by an
+    // amount that depends on y.
     for (const Vec3& offset : offsetsOf(outcome, 0, "TANGENT")) EXPECT_LT(lengthOf(offset), 1e-6);
 }
 
@@ -111,7 +112,7 @@ TEST(MorphGltf, StoresDeltasSparselyWhereMostAreZero) {
         EXPECT_FALSE(view.contains("byteStride"));
     }
     const Json& none = accessorOf(outcome.after, 1, "TANGENT");
-    // Assimp rejects accessors that have neither a view nor sparse values.
+    // Assimp rejects accessors that have neither a view nor sparse values, so one zero is stored.
     ASSERT_TRUE(none.contains("sparse") && !none.contains("bufferView"));
     EXPECT_EQ(none["sparse"]["count"], 1);
     for (const Vec3& offset : offsetsOf(outcome, 1, "TANGENT")) EXPECT_EQ(lengthOf(offset), 0);
@@ -184,12 +185,12 @@ TEST(MorphGltf, KeepsSparseTargetsSparseThroughASplit) {
     ASSERT_TRUE(accessor.contains("sparse"));
     EXPECT_EQ(accessor["sparse"]["count"], 4) << "vertex 10 lies on the mirrored seam and was doubled";
     EXPECT_EQ(outcome.after.json["accessors"].size(), outcome.before.json["accessors"].size() + 2);
-    const std::size_t new_views = 1 + 2;  // tangents; indices and values of their deltas
+    const std::size_t new_views = 1 + 2;  // one for tangents, and two for their deltas: indices and values
     EXPECT_EQ(outcome.after.json["bufferViews"].size(), outcome.before.json["bufferViews"].size() + new_views)
         << "entries are re-used";
 }
 
-/// Returns a generated model without the deltas of its first target.
+/// Returns a generated model from which the deltas of its first target were removed.
 Document withoutFirstDeltas(const TempFolder& folder, const std::string& name) {
     const Grid grid(12);
     std::vector<float> wave = noneLifted(grid);
@@ -228,7 +229,7 @@ TEST(MorphGltf, AddsNoDeltasToKeptTangentsThatDiffer) {
     const TempFolder folder;
     withoutFirstDeltas(folder, "part.gltf");
     GenerateOptions options;
-    options.tangents.compute.convention = conventions::opengl;  // the other sign
+    options.tangents.compute.convention = conventions::opengl;  // this convention requires the opposite sign
     const auto report = generateFile(folder.path("part.gltf").string(), folder.path("out.gltf").string(), options);
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_FALSE(report->changed);
@@ -270,7 +271,7 @@ TEST(MorphGltf, ReadsQuantizedOffsets) {
     builder.json()["extensionsUsed"] = builder.json()["extensionsRequired"] = {"KHR_mesh_quantization"};
     firstPrimitive(builder)["targets"] = Json::array({Json{{"POSITION", accessor}}});
     const GenerateRun outcome = run(builder);
-    // Columns alternate along y by one step of x, so at the left border T is rotated by 45 degrees.
+    // Columns are displaced along y by one step of x in alternation, so at the left border T is rotated by 45 degrees.
     const std::vector<Vec3> deltas = offsetsOf(outcome, 0, "TANGENT");
     const std::vector<Vec4> tangents = readTangents(outcome.after, outcome.primitives[0]);
     EXPECT_NEAR(tangents[0].x + deltas[0].x, std::sqrt(0.5), 1e-6);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Normals of glTF files with generateFile: across borders of primitives, recomputed, and deltas of morph targets.
+// Normals of glTF files with generateFile: across borders of primitives, recomputed normals, and deltas of morph
+// targets.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +33,7 @@ double degreesBetween(const Vec3& a, const Vec3& b) {
     return std::acos(std::clamp(dots / (size(a) * size(b)), -1.0, 1.0)) * 180 / 3.14159265358979;
 }
 
-/// Returns the triangles of `data` for which `takes(center of the triangle)` is true, with their vertices.
+/// Returns the triangles of `data` for which `takes(center of the triangle)` is true, and their vertices.
 template <class Takes>
 ModelData part(const ModelData& data, const Takes& takes) {
     ModelData result;
@@ -54,7 +55,7 @@ ModelData part(const ModelData& data, const Takes& takes) {
     return result;
 }
 
-/// Returns a sheet that bends by `bend` of its length along x.
+/// Returns a sheet that is arched along x. `bend`: factor of its height.
 ModelData arch(int n, float bend) {
     ModelData sheet = bentSheet(n);
     for (Vec3& p : sheet.positions) p.z = bend * p.x * (1 - p.x) + 0.1f * p.y * p.x;
@@ -67,7 +68,7 @@ ModelData rightOf(const ModelData& data) {
     return part(data, [](float x) { return x > 0.5f; });
 }
 
-/// Adds a primitive with a normal map to mesh 0; with normals if `with_normals` is set.
+/// Adds a primitive with a normal map to mesh 0, and returns its JSON. `with_normals`: with the normals of `data`.
 Json& addPart(GltfBuilder& builder, const ModelData& data, bool with_normals = false) {
     builder.json()["materials"] = Json::parse(R"([{"normalTexture":{"index":0}},{"name":"plain"}])");
     builder.json()["textures"] = Json::parse("[{}]");
@@ -81,7 +82,7 @@ Json& addPart(GltfBuilder& builder, const ModelData& data, bool with_normals = f
     return primitive;
 }
 
-/// Result of a run, read back.
+/// The result of a run, read from its output.
 struct Made {
     GenerateReport report;
     gltf::Document document;
@@ -90,7 +91,7 @@ struct Made {
     [[nodiscard]] std::vector<Vec3> vec3(std::size_t primitive, const char* name) const {
         return readVec3(document, primitives[primitive], name);
     }
-    /// Returns the normals at each position of a primitive, displaced by target `target` (-1: base shape).
+    /// Returns the normals of a primitive by position. `target`: number of the morph target that is applied; -1: none.
     [[nodiscard]] std::map<Place, std::vector<Vec3>> normals(std::size_t primitive, int target = -1) const {
         const std::vector<Vec3> positions = vec3(primitive, "POSITION");
         std::vector<Vec3> normals = vec3(primitive, "NORMAL");
@@ -439,7 +440,8 @@ TEST(OverwriteNormals, ReportsAuthoredTangentsThatAreReplaced) {
     EXPECT_FALSE(says(notes("{}", anew()), "drawn"));
 }
 
-/// A sheet that a target rolls up along x, with authored base normals that are tilted along y.
+/// Returns a sheet with a morph target that rolls it up along x. Its base normals are authored: they are tilted along
+/// y.
 GltfBuilder rolling(const ModelData& data, bool with_offsets) {
     GltfBuilder builder;
     std::vector<float> offsets;
@@ -467,7 +469,8 @@ TEST(MorphNormals, NormalsTurnAsTheSurfaceDoes) {
             EXPECT_EQ(findAttribute(made.primitives[0].targets[0], "NORMAL").has_value(), with_offsets || is_new);
             if (!is_new) continue;
             for (const auto& [place, normals] : made.normals(0, 0)) {
-                const float x = std::clamp(place[0], 1.0f / 32, 31.0f / 32);  // one-sided at the border
+                const float x =
+                    std::clamp(place[0], 1.0f / 32, 31.0f / 32);  // at the border, faces are on one side only
                 const Vec3 expected{-std::sin(x) * std::cos(tilt), std::sin(tilt), std::cos(x) * std::cos(tilt)};
                 EXPECT_LT(degreesBetween(normals[0], expected), 0.2) << place[0];
             }
@@ -475,7 +478,7 @@ TEST(MorphNormals, NormalsTurnAsTheSurfaceDoes) {
     }
 }
 
-/// Returns `rolling` with the given offsets of normals.
+/// Returns `rolling` with these offsets of normals.
 GltfBuilder rollingWith(const ModelData& data, const std::vector<float>& normals) {
     GltfBuilder builder = rolling(data, false);
     const std::size_t accessor = builder.addFloats(normals, 3);
@@ -493,7 +496,7 @@ TEST(MorphNormals, OffsetsThatAreNotFiniteAreMissing) {
     ASSERT_GE(right.size(), data.positions.size());
 
     const std::vector<float> all_nan(3 * data.positions.size(), nan);
-    std::vector<float> one_nan(3 * data.positions.size(), 0.125f);  // others were authored
+    std::vector<float> one_nan(3 * data.positions.size(), 0.125f);  // all others count as authored
     one_nan[3 * 40] = nan;
     for (const MorphNormals which : {MorphNormals::missing, MorphNormals::all}) {
         EXPECT_EQ(offsetsOf(make(rollingWith(data, all_nan), {.normals = {.morphs = which}})), right);
@@ -517,7 +520,7 @@ TEST(MorphNormals, AreComputedIfTangentsAreKeptOrNotNeeded) {
     EXPECT_FALSE(without.primitives[0].find("TANGENT"));
     EXPECT_TRUE(findAttribute(without.primitives[0].targets[0], "NORMAL"));
 
-    // Tangents of the first run are kept, and their deltas match the new normals.
+    // Tangents of the first run are kept. Their deltas must match the new normals.
     const Made first = make(rolling(data, true), {});
     GltfBuilder again;
     ModelData kept = data;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bounds of pack.h for the frames of real models: as stored, or for normals alone with a basis.
+// The error bounds of pack.h for frames of real models. If only normals are stored, tangents are made up.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -12,7 +12,8 @@
 namespace tspace::test {
 namespace {
 
-/// Returns the frames of a primitive that can be compared: invalid ones are skipped, the others are made orthonormal.
+/// Returns the frames of a primitive that can be compared: invalid frames are skipped, and the others are made
+/// orthonormal.
 FrameList framesOf(const ScenePrimitive& primitive) {
     FrameList frames;
     for (std::size_t i = 0; i < primitive.normals.size(); ++i) {
@@ -37,7 +38,7 @@ TEST(PackBounds, HoldForTheFramesOfAllModels) {
         try {
             scene = readScene(entry.path().string(), {}, false);
         } catch (const std::exception&) {
-            continue;  // some are intentionally invalid
+            continue;  // some files are intentionally invalid
         }
         for (const ScenePrimitive& primitive : scene.primitives) {
             const FrameList frames = framesOf(primitive);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// generateFile with packed frames: the values of the attributes, other attributes, and a second run.
+// generateFile with packed frames: values of the attributes, effects on other attributes, and a second run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ void expectPacked(const gltf::Document& document, const Primitive& primitive, Fr
     const std::vector<Vec3> normals = readVec3(document, primitive, "NORMAL");
     const std::vector<Vec4> tangents = readTangents(document, primitive);
     for (std::size_t i = 0; i < normals.size(); ++i) {
-        // the stored frames are unit and orthogonal to float precision
+        // The stored frames are orthonormal only to float precision.
         constexpr double kDegrees = 180 / kPi, kFloats = 3e-5;
         EXPECT_LE(angleBetween(toDouble(frames.normals[i]), toDouble(normals[i])) * kDegrees,
                   bound.normal_deg + kFloats);
@@ -60,7 +60,7 @@ void expectPacked(const gltf::Document& document, const Primitive& primitive, Fr
     }
 }
 
-/// Returns a bent grid, so that frames are not axis-aligned.
+/// Returns a bent grid, whose frames are not axis-aligned.
 Grid bentGrid(std::size_t size = 6) {
     Grid grid(size);
     for (std::size_t i = 0; i < grid.vertexCount(); ++i) {
@@ -192,7 +192,7 @@ TEST(PackedGltf, MayReplaceItsSource) {
         EXPECT_EQ(readPackedWords(document, primitive, layout),
                   readPackedWords(full, readPrimitives(full).at(0), layout));
 
-        // Neither an equal run nor a run without options replaces them with less accurate frames.
+        // Neither a run with the same options nor one without options may replace the frames by less accurate ones.
         const Bytes bytes = readFile(output);
         for (const GenerateOptions& again : {options, GenerateOptions{}}) {
             const auto second = generateFile(output, output, again);

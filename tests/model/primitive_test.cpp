@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Primitives: triangles of every mode, and checks of counts.
+// Primitives: triangles of every mode, and checks of their counts.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -51,7 +51,7 @@ TEST(Primitive, LeavesPointsLinesAndTooFewCornersWithoutTriangles) {
     }
 }
 
-/// Returns interleaved positions and UVs, starting `shift` bytes after the start of the buffer.
+/// Returns a model with interleaved positions and UVs that start at byte `shift` of the buffer.
 GltfBuilder interleaved(std::size_t shift) {
     GltfBuilder builder;
     const std::vector<float> values = {1, 2, 3, 0.5f, 0.25f, 4, 5, 6, 0.75f, 1};
@@ -102,7 +102,7 @@ TEST(Primitive, CopiesDataThatIsNotAlignedFloats) {
     EXPECT_EQ(lent(builder), std::pair(true, false));
     builder.json()["accessors"][1]["componentType"] = 5125;  // same size as floats, and allowed by the file format
     EXPECT_EQ(lent(builder), std::pair(true, false));
-    builder.json()["accessors"][0].erase("bufferView");  // all zero
+    builder.json()["accessors"][0].erase("bufferView");  // without a view, all values are zero
     EXPECT_EQ(lent(builder), std::pair(false, false));
     builder.json()["accessors"][0]["bufferView"] = 0;
     builder.json()["accessors"][0]["sparse"] = {{"count", 1},

@@ -10,7 +10,7 @@
 namespace tspace::test {
 namespace {
 
-/// One triangle with every attribute.
+/// Returns a model of one triangle with every attribute.
 GltfBuilder oneTriangle() {
     GltfBuilder builder;
     builder.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);
@@ -85,7 +85,7 @@ TEST(ReadScene, LeavesPointsAndLinesWithoutCorners) {
 
 TEST(ReadScene, RejectsArraysFarLargerThanTheFile) {
     GltfBuilder builder = oneTriangle();
-    // Each one is within the limit for accessors without data; together they exceed it.
+    // Each accessor is within the limit for accessors without data, but all of them together exceed it.
     for (int i = 0; i < 400; ++i) {
         builder.json()["accessors"].push_back({{"componentType", 5126}, {"count", 1000000}, {"type", "VEC3"}});
         builder.addPrimitive({{"POSITION", 4 + i}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Preconditions of edits: which objects share bytes, and that closing gaps moves all other data.
+// Conditions for edits: which objects share bytes, and that closing gaps moves all other data correctly.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -40,7 +40,8 @@ RC_GTEST_PROP(Overlaps, AgreesWithMarkingEveryByte, ()) {
     };
     bool common = false;
     for (std::size_t byte = 0; byte < 300; ++byte) common = common || (reads(a, byte) && reads(b, byte));
-    // Ends may interlock without a common byte; reporting an overlap there is allowed, missing one is not.
+    // Two interleaved accessors may have no common byte although their ranges overlap. Such an overlap may be reported,
+    // but common bytes must be reported.
     RC_ASSERT(!common || overlaps(a, b));
 }
 
@@ -55,7 +56,7 @@ RC_GTEST_PROP(CutVacated, KeepsEveryOtherAccessor, ()) {
         builder.addFloats(values, 2);
         expected.push_back(bytesOfValues(values));
         if (i > 0 && *rc::gen::arbitrary<bool>()) {
-            // Two accessors of one view, the second one after the first.
+            // Add a second accessor to the view, which starts within the first one.
             Json& accessors = builder.json()["accessors"];
             const auto split = *rc::gen::inRange<std::size_t>(0, length);
             Json second = accessors.back();
@@ -78,7 +79,7 @@ RC_GTEST_PROP(CutVacated, KeepsEveryOtherAccessor, ()) {
         const Accessor accessor = readAccessor(document, i);
         const Extent extent = extentOf(document, accessor);
         vacated.push_back({0, extent.begin, extent.end});
-        // Same effect as a stored replacement: the entry refers to other bytes.
+        // Like replacing a stored accessor: its entry refers to other bytes afterwards.
         document.json["accessors"][i] = {{"componentType", 5126}, {"count", 1}, {"type", "VEC2"}};
         gone[i] = true;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Attributes of a wrong type or number: findings of check have remedies that work.
+// Attributes with a wrong type or count: the remedies of check's findings work.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -21,7 +21,7 @@ struct FaultyAttribute {
     const char* option;  ///< option of generate that the remedy names; empty: no command repairs it
 };
 
-/// Runs the remedies of `check`.
+/// Runs the remedies that `check` suggests.
 TEST(Repair, RepairsAttributesOfAWrongTypeOrCount) {
     const Grid grid(4, false);
     const std::size_t count = grid.vertexCount();

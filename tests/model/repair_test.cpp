@@ -21,8 +21,7 @@ using namespace test;
 
 const GenerateOptions kRepair = {.selection = {.existing = ExistingTangents::repair}};
 
-/// A model with correct tangents in its GLB, computed by `method`, and then changed: `harm` is called with each vertex
-/// and its tangent.
+/// A model in a GLB with correct tangents, computed by `method`, which tests then change.
 class Model {
   public:
     explicit Model(const GltfBuilder& builder, Method method = Method::mikktspace) {
@@ -34,7 +33,8 @@ class Model {
 
     [[nodiscard]] std::string good() const { return folder_.path("good.glb").string(); }
 
-    /// Writes the model with changed tangents and repairs it. Returns the report; `repaired` is read back below.
+    /// Writes the model with tangents changed by `harm`, which is called with each vertex and its tangent, and repairs
+    /// it. Returns the report and reads the output into `repaired`.
     GenerateReport repair(const std::function<void(std::size_t, Vec4&)>& harm, GenerateOptions options = kRepair) {
         Bytes file = readFile(good());
         const gltf::Document document = gltf::loadDocument(good(), {});
@@ -94,7 +94,7 @@ TEST(Repair, ReplacesWrongSignsAndDirections) {
 }
 
 TEST(Repair, ReplacesInvalidValuesEvenAtOneVertex) {
-    Model model(gridModel(Grid(40)));  // one vertex is less than 0.1 % of it
+    Model model(gridModel(Grid(40)));  // so large that one vertex is less than 0.1 % of it
     const auto at_one = [](const Vec4& value) {
         return [value](std::size_t i, Vec4& t) {
             if (i == 700) t = value;
@@ -118,8 +118,8 @@ TEST(Repair, ReplacesTangentsThatAreSharedAcrossAMirroredSeam) {
     EXPECT_EQ(outcome.report.primitives.at(0).mended_vertex_count, 7u) << "no other vertex got another tangent";
 }
 
-/// At vertices of a fold nearly any direction could be intended. Their neighbors are all wrong, so they are too, and
-/// recomputed tangents must not be combined with remaining ones.
+/// At vertices where the UVs fold back, nearly any direction could be intended. If all neighbors are wrong, these
+/// tangents are recomputed too, because recomputed tangents must not be combined with old ones.
 TEST(Repair, RepairsIndeterminateTangentsNextToWrongOnes) {
     Grid grid(64, false);
     const std::size_t folded = 32 * 65 + 32;
@@ -170,7 +170,7 @@ TEST(Repair, AddsDeltasOfMorphTargetsToGoodTangents) {
     EXPECT_EQ(outcome.primitives[0].targets.at(0).size(), 2u) << "POSITION and TANGENT";
 }
 
-/// Kept tangents were not computed with the transform.
+/// Tangents that are kept were not computed with the texture transform.
 TEST(Repair, DoesNotClaimThatKeptTangentsFollowTheTransform) {
     GltfBuilder builder = gridModel(Grid(4, false));
     std::vector<float> tangents;
@@ -197,16 +197,16 @@ TEST(Repair, JudgesByTheUvsAfterTheTextureTransform) {
     EXPECT_EQ(model.repair([](std::size_t, Vec4&) {}, ignore).primitives.at(0).action, PrimitiveAction::replaced);
 }
 
-/// Tangents of the model in its GLB, before and after a change.
+/// Tangents of a model before and after a repair.
 struct Tangents {
     std::vector<Vec4> before = {}, after = {};
 };
 
-/// Computes correct tangents by Lengyel, whose bits differ from those of a repair; damages some with `harm`, and
-/// repairs.
+/// Computes correct tangents by lengyel, whose bits differ from those of a repair. Damages some of them with `harm`,
+/// and repairs the model.
 Tangents repairHarmed(const std::function<void(std::size_t, Vec4&)>& harm) {
     GltfBuilder builder = gridModel(Grid(6, false));
-    // Bent, so that methods differ.
+    // The grid is bent, so that methods differ.
     auto* positions = reinterpret_cast<float*>(builder.bytes().data());
     for (std::size_t v = 0; v < 49; ++v) {
         const auto x = static_cast<float>(v % 7), y = static_cast<float>(v / 7);
@@ -264,7 +264,7 @@ TEST(Repair, MakesShortTangentsUnitInTheirDirection) {
     }
 }
 
-/// A grid with tangents, and its normal map in a separate file.
+/// A grid with tangents, and with a normal map in a separate file.
 struct MappedModel {
     TempFolder folder = {};
     GltfBuilder builder = gridModel(Grid(6, false));
@@ -278,7 +278,7 @@ struct MappedModel {
         if (!image.empty()) folder.write("normal.png", image);
     }
 
-    /// Returns whether --repair preserves every byte of the model.
+    /// Returns whether --repair keeps every byte of the model.
     [[nodiscard]] bool isLeftAlone() const {
         const std::string input = folder.write("in.glb", builder.glb());
         const std::string output = folder.path("out.glb").string();
@@ -319,7 +319,7 @@ TEST(Repair, RepairsSignsThatNoMapCancelsNextToKeptOnes) {
     for (const Vec4& t : readTangents(document, readPrimitives(document).at(0))) EXPECT_EQ(t, (Vec4{1, 0, 0, -1}));
 }
 
-/// Two primitives share their vertices; one of them has a map that cancels the inverted signs.
+/// Two primitives share their vertices. One of them has a map with which the inverted signs are correct.
 TEST(Repair, DecidesForEachPrimitiveOverSharedVertices) {
     MappedModel model(-1, pngFile(normalMapOf(256, bumps, true)));
     model.builder.json()["materials"].push_back(Json::parse(R"({"normalTexture":{"index":1}})"));
@@ -334,7 +334,7 @@ TEST(Repair, DecidesForEachPrimitiveOverSharedVertices) {
     EXPECT_EQ(readTangents(document, after[1])[0].w, 1);
 }
 
-/// Repair keeps tangents for which `check` reports only a warning or nothing.
+/// --repair keeps tangents for which `check` reports no error.
 TEST(Repair, KeepsTangentsWithoutErrors) {
     for (const float degrees : {20.0f, 40.0f}) {
         MappedModel model(1, pngFile(normalMapOf(256, bumps, false)));
@@ -349,7 +349,7 @@ TEST(Repair, KeepsTangentsWithoutErrors) {
     }
 }
 
-/// Deltas on kept tangents are kept; deltas on new tangents are recomputed.
+/// Deltas of tangents that are kept are kept too; deltas of new tangents are recomputed.
 TEST(Repair, KeepsDeltasOfCorrectTangents) {
     const Grid grid(4, false);
     GltfBuilder builder = gridModel(grid);
@@ -377,7 +377,7 @@ TEST(Repair, KeepsDeltasOfCorrectTangents) {
     EXPECT_EQ(readTangents(document, after)[12], (Vec4{1, 0, 0, 1}));
 }
 
-/// Reads the output of a run.
+/// Runs generateFile and returns the tangents of the output's first primitive; empty if the run fails.
 std::vector<Vec4> tangentsAfter(const GltfBuilder& builder, const GenerateOptions& options, GenerateReport& report) {
     const TempFolder folder;
     const std::string output = folder.path("out.glb").string();
@@ -425,7 +425,7 @@ TEST(Repair, ReplacesUnreadableTangents) {
     }
 }
 
-/// A grid with one vertex that no triangle uses. `tangents`: one more than the grid has.
+/// Returns a grid with one vertex that no triangle uses. `tangents`: one more than the grid has vertices.
 GltfBuilder withUnusedVertex(const std::vector<Vec4>& tangents) {
     Grid grid(4, false);
     grid.positions.insert(grid.positions.end(), {9, 9, 0});
@@ -473,7 +473,7 @@ TEST(Repair, RepairsValuesInTheirFormat) {
     GltfBuilder builder = gridModel(Grid(4, false));
     const std::size_t accessor = builder.addAccessor(numbers, 5122, "VEC4", count);
     builder.json()["accessors"][accessor]["normalized"] = true;
-    // Two primitives share their tangents; one of them has a material that does not need tangents.
+    // Two primitives share their tangents. The material of one of them does not need tangents.
     firstPrimitive(builder)["material"] = 1;
     firstPrimitive(builder)["attributes"]["TANGENT"] = accessor;
     Json& primitives = builder.json()["meshes"][0]["primitives"];
@@ -490,7 +490,7 @@ TEST(Repair, RepairsValuesInTheirFormat) {
     }
 }
 
-/// Tangents along the strokes of brushed metal do not depend on UVs.
+/// On brushed metal, tangents are along the strokes and do not depend on UVs.
 TEST(Repair, KeepsTangentsThatNoTextureUses) {
     for (const bool has_uvs : {true, false}) {
         GltfBuilder builder = gridModel(Grid(4, false));
@@ -498,7 +498,7 @@ TEST(Repair, KeepsTangentsThatNoTextureUses) {
         for (std::size_t v = 0; v < 25; ++v) tangents.insert(tangents.end(), {0.6f, 0.8f, 0, 1});
         tangents[4 * 7] = NAN;
         tangents[4 * 9 + 2] = 1;
-        tangents[4 * 9] = tangents[4 * 9 + 1] = 0;  // along N
+        tangents[4 * 9] = tangents[4 * 9 + 1] = 0;  // makes tangent 9 parallel to N
         firstPrimitive(builder)["attributes"]["TANGENT"] = builder.addFloats(tangents, 4);
         if (!has_uvs) firstPrimitive(builder)["attributes"].erase("TEXCOORD_0");
         builder.json()["materials"][0] =

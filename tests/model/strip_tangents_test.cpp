@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// --strip: removes unneeded tangents with their data.
+// --strip: removes tangents that no material needs, with their data.
 #include <gtest/gtest.h>
 
 #include "generate_run.h"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-/// The grid with tangents, and a material that needs none.
+/// Returns the grid with tangents, and with a material that needs none.
 GltfBuilder unneeded(const Grid& grid = Grid(4, false)) {
     GltfBuilder builder = gridModel(grid);
     std::vector<float> tangents;

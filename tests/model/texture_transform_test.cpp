@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// KHR_texture_transform: its effect on tangents, and unaffected data.
+// KHR_texture_transform: its effect on tangents, and data that it does not affect.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,8 @@ std::vector<Vec4> tangentsOf(const GltfBuilder& builder, const GenerateOptions& 
     return readTangents(outcome.after, outcome.primitives.at(0));
 }
 
-/// The grid's u increases along x and its v against y, so that without a transform every tangent is (1, 0, 0, 1).
+/// Checks all tangents. In the grid, u increases along x and v against y, so without a transform every tangent is (1,
+/// 0, 0, 1).
 void expectAll(const std::vector<Vec4>& tangents, const Vec4& expected) {
     for (const Vec4& tangent : tangents) {
         EXPECT_NEAR(tangent.x, expected.x, 1e-6);
@@ -36,7 +37,7 @@ void expectAll(const std::vector<Vec4>& tangents, const Vec4& expected) {
 }
 
 TEST(TextureTransform, RotatesTangentsLikeTheImage) {
-    // UVs rotate counter-clockwise, so the image rotates clockwise: its right direction now points down.
+    // The UVs are rotated counter-clockwise, so the image is rotated clockwise, and its right direction points down.
     expectAll(tangentsOf(transformed({{"rotation", kQuarter}})), {0, -1, 0, 1});
     expectAll(tangentsOf(transformed({{"rotation", -kQuarter}})), {0, 1, 0, 1});
     expectAll(tangentsOf(transformed({{"rotation", 2 * kQuarter}})), {-1, 0, 0, 1});
@@ -53,7 +54,7 @@ TEST(TextureTransform, FlipsTheSignWhereItMirrors) {
 }
 
 TEST(TextureTransform, ScalesBeforeItRotates) {
-    // u' = c su u + s sv v, v' = -s su u + c sv v; T has constant v' and increasing u'. u = x, v = -y.
+    // u' = c su u + s sv v and v' = -s su u + c sv v, with u = x and v = -y. Along T, v' is constant and u' increases.
     const double c = std::cos(0.4), s = std::sin(0.4), su = 3, sv = 0.5;
     const double x = c / su, y = -s / sv, length = std::sqrt(x * x + y * y);
     expectAll(tangentsOf(transformed({{"rotation", 0.4}, {"scale", {su, sv}}})),
@@ -130,7 +131,7 @@ TEST(TextureTransform, OfAnotherTextureIsNotedWhereOneTangentCannotServeBoth) {
     const auto notes = [&](const char* coat) {
         material["extensions"]["KHR_materials_clearcoat"]["clearcoatNormalTexture"] = Json::parse(coat);
         std::vector<std::string> all = run(builder).report.primitives.at(0).notes;
-        all.erase(all.begin());  // the rotated normalTexture
+        all.erase(all.begin());  // the note about the rotated normalTexture
         return all;
     };
     EXPECT_TRUE(notes(R"({"index":0,"extensions":{"KHR_texture_transform":{"rotation":1,"offset":[2,2]}}})").empty());

@@ -30,7 +30,7 @@ TEST(DataUri, DecodesPercentsAndMissingPadding) {
     EXPECT_EQ(errorOf([] { decodeDataUri("data:;base64", "p"); }).code, ErrorCode::invalidFile);
 }
 
-/// Exporters break base64 into lines; browsers ignore line breaks.
+/// Exporters break base64 into lines, and browsers ignore these line breaks.
 TEST(DataUri, IgnoresWhiteSpaceInBase64) {
     EXPECT_EQ(decodeDataUri("data:;base64,YWJj\nZGVm\r\n", "").bytes, test::toBytes("abcdef"));
     EXPECT_EQ(decodeDataUri("data:;base64,YW Jj\tZG%0AU=\n", "").bytes, test::toBytes("abcde"));
@@ -108,7 +108,7 @@ TEST(ResolveUri, OfModelsInMemoryWithoutFilesIsKeptButNotFollowed) {
     for (const char* uri : {"a.png", "../a.png", "/a.png", "http://a/b.png", ""}) EXPECT_EQ(load(uri), 0u) << uri;
 }
 
-/// Geometry does not depend on images.
+/// Geometry does not depend on images, so a rejected image is only a warning.
 TEST(ResolveUri, OfARejectedImageIsAWarning) {
     const TempFolder folder;
     folder.write("secret.png", std::string("x"));

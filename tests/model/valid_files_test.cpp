@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every file without errors in the glTF validator loads, and every file that loads is processed.
+// Every file in which the glTF validator finds no error loads, and every file that loads is processed.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -18,7 +18,7 @@ namespace {
 
 using test::shared;
 
-/// Files without errors that are rejected nevertheless, and why.
+/// Files without errors that are rejected nevertheless.
 const std::map<std::string, ErrorCode> kRefused = {
     // A web address is never loaded.
     {"buffer/non_relative_uri.gltf", ErrorCode::forbiddenPath},

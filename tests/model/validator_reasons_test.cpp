@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// If tspace rejects a file of the Khronos validator's own tests, it reports one of the errors in the validator's
+// If tspace rejects a file of the Khronos validator's own tests, its error is one of the errors in the validator's
 // report, at the same location.
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A code of the validator, and words of which our message contains at least one.
+/// For each code of the validator: words of which tspace's message contains at least one.
 using Words = std::vector<std::string>;
 const std::map<std::string, Words> kReasons = {
     {"ACCESSOR_SMALL_BYTESTRIDE", {"overlap at a stride"}},
@@ -55,7 +55,7 @@ const std::map<std::string, Words> kReasons = {
     {"VALUE_NOT_IN_RANGE", {"a number that is too large"}},
 };
 
-/// Files without an error in the validator, and why they are rejected nevertheless.
+/// Files in which the validator finds no error, and words of the messages with which tspace rejects them.
 const std::map<std::string, std::string> kRefusedBeyond = {
     {"base/asset/min_version_valid.gltf",
      "requires glTF version '2.1'"},  // newer than the versions that tspace supports
@@ -69,19 +69,19 @@ bool hasWords(const std::string& message, const Words& words) {
                        [&](const std::string& part) { return message.find(part) != std::string::npos; });
 }
 
-/// Returns whether one location equals or contains the other. Byte offsets are counted differently (including the
-/// header or not) and are not compared; a parser that stops has no JSON pointer.
+/// Returns whether one location equals or contains the other. Byte offsets are not compared, because one count includes
+/// the header and the other does not. An error of a parser has no JSON pointer, so its location is not compared either.
 bool isSamePlace(const std::string& ours, const std::string& theirs) {
     if (ours.empty() || theirs.empty() || ours[0] != '/' || theirs[0] != '/') return true;
     const auto isWithin = [](const std::string& inner, const std::string& outer) {
         return outer == "/" || inner == outer || inner.starts_with(outer + '/');
     };
-    // Lengths and strides are members of the view that an accessor refers to.
+    // Lengths and strides are members of views, to which accessors refer.
     const bool is_stride = ours.ends_with("/byteStride") && theirs.starts_with("/accessors/");
     return is_stride || isWithin(ours, theirs) || isWithin(theirs, ours);
 }
 
-/// Returns the fault of our error; empty if there is none.
+/// Returns what is wrong with tspace's error; empty if it matches the report.
 std::string faultOf(const Error& error, const nlohmann::json& report) {
     std::string seen;
     for (const nlohmann::json& message : report["issues"]["messages"]) {

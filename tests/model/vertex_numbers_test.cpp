@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Extensions that reference vertices, if vertices are split or removed.
+// Extensions that refer to vertices, when vertices are split or removed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct Written {
     }
 };
 
-/// Generates the model; a second run must change nothing.
+/// Runs generate on the model, and again on its output, which must not change.
 Written generated(const GltfBuilder& builder, GenerateOptions options = {}) {
     const TempFolder folder;
     const std::string input = folder.write("in.glb", builder.glb()), output = folder.path("out.glb").string();
@@ -44,7 +44,7 @@ Written generated(const GltfBuilder& builder, GenerateOptions options = {}) {
     return written;
 }
 
-/// The grid's UVs are mirrored at its middle column, whose vertices are split.
+/// Returns a grid whose UVs are mirrored at its middle column. The vertices of this column are split.
 GltfBuilder splitModel() {
     GltfBuilder builder = gridModel(Grid(kSize));
     builder.json()["extensionsUsed"] = Json::array();
@@ -58,7 +58,7 @@ void addOutline(GltfBuilder& builder, const std::vector<std::uint16_t>& edges, s
         {"indices", accessor}};
 }
 
-/// The end positions of each edge, as a set, because edges have no direction here.
+/// Positions of the two ends of each edge, as a set, because direction does not matter.
 using Place = std::array<float, 3>;
 using Places = std::multiset<std::set<Place>>;
 
@@ -85,7 +85,7 @@ Outline outlineOf(const gltf::Document& document, const gltf::Primitive& primiti
     return outline;
 }
 
-/// The middle column, the lower border, and one edge that is not a side of a triangle.
+/// Edges of the middle column and of the lower border, and one edge that no triangle has.
 const std::vector<std::uint16_t> kEdges = {2, 7, 12, 7, 12, 17, 22, 17, 0, 1, 1, 2, 2, 3, 3, 4, 0, 24};
 
 TEST(VertexNumbers, OutlinesAreEdgesOfTrianglesAfterASplitOnBothSidesOfIt) {
@@ -149,7 +149,7 @@ TEST(VertexNumbers, FeatureIdsThatAreNumbersOfVerticesBecomeAnAttribute) {
     const gltf::Accessor numbers = gltf::readAccessor(written.document, *result.find("_FEATURE_ID_1"));
     const Bytes elements = gltf::copyElements(written.document, numbers);
     ASSERT_EQ(elements.size(), 2 * result.vertex_count);
-    // Each vertex has the number of the old one at its position.
+    // Each vertex keeps the number that belongs to its position.
     const std::vector<Vec3> positions = gltf::readVec3(written.document, result, "POSITION");
     for (std::size_t i = 0; i < result.vertex_count; ++i) {
         const auto expected = static_cast<std::size_t>(positions[i].y * (kSize + 1) + positions[i].x);
@@ -183,7 +183,7 @@ TEST(VertexNumbers, WithoutASplitNothingIsReported) {
 TEST(VertexNumbers, OutlinesFollowWhenDracoRemovesUnusedVertices) {
     if (!gltf::dracoMissing().empty()) GTEST_SKIP() << gltf::dracoMissing();
     GltfBuilder builder = splitModel();
-    // Without the first quad: vertex 0 is unused.
+    // Remove the first quad, so that vertex 0 is unused.
     std::vector<std::uint16_t> indices = Grid(kSize).indices<std::uint16_t>();
     indices.erase(indices.begin(), indices.begin() + 6);
     firstPrimitive(builder)["indices"] = builder.addAccessor(indices, kU16, "SCALAR", indices.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// case_files write FOLDER FRAMES: writes the cases as N.case, for programs that are not C++. case_files compare FOLDER
-// FRAMES: checks their results, LANGUAGE.N.results (floats, little-endian). Exits with 1 if any result is wrong, or all
-// results of a language are missing.
+// case_files write FOLDER FRAMES: writes the cases as N.case, for programs in other languages. case_files compare
+// FOLDER FRAMES: checks the results of these programs, LANGUAGE.N.results (little-endian floats). The exit status is 1
+// if any result is wrong, or if all results of a language are missing.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -37,8 +37,8 @@ bool compare(const Case& c, const std::string& language, const std::vector<float
     return wrong.empty();
 }
 
-/// Compares the frames of pixels, which are those of the first items of frameOfSteps, computed from rounded
-/// derivatives.
+/// Compares frames of pixels. They must equal the first items of frameOfSteps, with a wider bound, because they are
+/// computed from rounded derivatives.
 bool comparePixels(Case c, const std::vector<float>& results) {
     if (results.size() > c.expected.size()) return false;
     c.expected.resize(results.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Expected results are computed with the C++ decoder, or with double-precision geometry: not with the formulas of the
+// Expected results come from the C++ decoder, or from geometry in double precision, but not from the formulas of the
 // shaders.
 #include "cases.h"
 
@@ -22,7 +22,7 @@ namespace {
 
 using test::RandomBits;
 
-/// The words of one item, generated number by number, and its expected result.
+/// One item of a case: its words, appended number by number, and its expected result.
 struct Item {
     std::vector<std::uint32_t> words;
     std::array<double, kResultFloats> expected{};
@@ -47,7 +47,7 @@ void addFrame(Item& item, const DFrame& f) {
     item.add(f.sign);
 }
 
-/// Rounds to float, so that both sides start with the same numbers.
+/// Rounds to float, so that the shader and the expected result start from the same numbers.
 double rounded(double x) { return static_cast<float>(x); }
 DVec3 rounded(const DVec3& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
 DVec3 unitOf(const DVec3& v) { return (1 / length(v)) * v; }
@@ -66,7 +66,7 @@ DFrame frameOf(RandomBits& random) {
 
 // ---- the formats
 
-/// Returns packed frames, then words of all kinds: random ones, and ones with few bits set or clear.
+/// Returns packed frames, and then other words: random ones, and words with few bits set or clear.
 std::vector<std::byte> someWords(FrameFormat format, std::size_t count) {
     RandomBits random(17);
     const std::size_t bytes = frameBytes(format), others = count / 10;
@@ -92,7 +92,8 @@ void setHeader(Case& c) {
     c.buffer.insert(c.buffer.begin(), std::begin(header), std::end(header));
 }
 
-/// Creates a case that decodes `words` bytes; `spread` writes one byte per word, as in integer attributes.
+/// Creates a case that decodes `format`. Each word contains `unit_bytes` bytes of the format, as integer attributes are
+/// fetched.
 Case formatCase(std::string name, std::uint32_t number, FrameFormat format, std::size_t count, std::size_t unit_bytes) {
     const std::vector<std::byte> bytes = someWords(format, count);
     const std::size_t each = frameBytes(format), items = bytes.size() / each;
@@ -110,18 +111,18 @@ Case formatCase(std::string name, std::uint32_t number, FrameFormat format, std:
         const Vec4& t = frames.tangents[i];
         c.expected.insert(c.expected.end(), {n.x, n.y, n.z, 0, t.x, t.y, t.z, t.w});
     }
-    c.bound = 2 * 0x1p-23;  // two units in the last place of 1
+    c.bound = 2 * 0x1p-23;  // two units in the last place of 1.0
     setHeader(c);
     return c;
 }
 
 // ---- the other functions, item by item
 
-/// Normalized attributes, in the form that vertex fetch provides.
+/// Appends a frame from a quaternion, whose components are floats as vertex fetch provides them.
 void quaternionItem(RandomBits& random, Item& item) {
     double q[4];
     for (double& component : q) component = number(random, -1, 1);
-    // A half turn: w is the smallest number that has a sign.
+    // Sometimes w is the smallest number that has a sign: a half turn.
     if (random.next() % 64 == 0) q[3] = rounded((random.next() & 1) != 0 ? 1.0 / 32767 : -1.0 / 32767);
     double square = 0;
     for (const double component : q) {
@@ -129,7 +130,7 @@ void quaternionItem(RandomBits& random, Item& item) {
         square += component * component;
     }
     const double k = 1 / std::sqrt(square), x = k * q[0], y = k * q[1], z = k * q[2], w = k * q[3];
-    // The rotation of the axes z and x by q, by the formula for a vector: v + 2 u x (u x v + w v).
+    // Rotates a vector by the quaternion q = (u, w): v + 2 u x (u x v + w v).
     const auto turned = [&](const DVec3& v) {
         const DVec3 u{x, y, z};
         return v + 2 * cross(u, cross(u, v) + w * v);
@@ -152,7 +153,7 @@ struct Matrix {
 };
 double determinant(const Matrix& m) { return dot(m.column[0], cross(m.column[1], m.column[2])); }
 
-/// Returns rotations, scales of both signs and shears, none of them nearly singular.
+/// Returns a random matrix (rotation, scale of either sign and shear) that is not nearly singular.
 Matrix someMatrix(RandomBits& random) {
     for (;;) {
         const DVec3 a = vectorIn(random, 1.5), b = vectorIn(random, 1.5);
@@ -164,8 +165,8 @@ void addMatrix(Item& item, const Matrix& m) {
     for (const DVec3& column : m.column) item.add(column);
 }
 
-/// N is perpendicular to the surface transformed by m, on the outer side; T is transformed by m; the sign makes
-/// cross(N, T) point to the transformed bitangent.
+/// Sets the expected frame after a transformation by m. N is perpendicular to the transformed surface, on its outer
+/// side. T is transformed by m. The sign makes cross(N, T) point toward the transformed bitangent.
 void expectMoved(Item& item, const DFrame& f, const Matrix& m) {
     const DVec3 b = f.sign * cross(f.normal, f.tangent);
     const DVec3 across = cross(m * f.tangent, m * cross(f.normal, f.tangent));
@@ -173,7 +174,8 @@ void expectMoved(Item& item, const DFrame& f, const Matrix& m) {
     item.expect(n, t, dot(m * b, cross(n, t)) < 0 ? -1 : 1);
 }
 
-/// Returns a matrix that is singular within float rounding, which alone determines the sign of its determinant.
+/// Returns a matrix that is singular up to float rounding, so that only rounding determines the sign of its
+/// determinant.
 Matrix someFlatMatrix(RandomBits& random) {
     const DVec3 a = vectorIn(random, 1.5), b = vectorIn(random, 1.5);
     const double x = random.number(), y = random.number();
@@ -190,7 +192,7 @@ void transformItem(RandomBits& random, Item& item) {
         addFrame(item, f);
         addMatrix(item, m);
         if (!is_flat) return expectMoved(item, f, m);
-        // N points to the side of the plane to which the surface faces, as if the plane had a small thickness.
+        // N points to the side of the plane that the surface faces, as if the plane had a small thickness.
         return item.expect(unitOf(across), unitOf(m * f.tangent), f.sign);
     }
 }
@@ -218,7 +220,7 @@ void skinItem(RandomBits& random, Item& item) {
 void morphItem(RandomBits& random, Item& item) {
     const DFrame f = frameOf(random);
     DVec3 normal_delta = vectorIn(random, 0.5), tangent_delta = vectorIn(random, 0.5);
-    if (random.next() % 64 == 0) normal_delta = rounded(-1.0 * f.normal);  // the sum vanishes: N is unchanged
+    if (random.next() % 64 == 0) normal_delta = rounded(-1.0 * f.normal);  // the sum vanishes, so N must not change
     if (random.next() % 64 == 0) tangent_delta = DVec3{};
     addFrame(item, f);
     item.add(normal_delta);
@@ -228,7 +230,7 @@ void morphItem(RandomBits& random, Item& item) {
     item.expect(n, unitOf(t - dot(n, t) * n), f.sign);
 }
 
-/// A triangle of a plane tilted away from the viewer, with UVs by a linear map.
+/// Appends a frame from screen-space derivatives: random derivatives of position and UV, and the expected tangent.
 void stepsItem(RandomBits& random, Item& item) {
     for (;;) {
         const DVec3 p_dx = vectorIn(random, 0.01), p_dy = vectorIn(random, 0.01);
@@ -242,15 +244,15 @@ void stepsItem(RandomBits& random, Item& item) {
         item.add(p_dx);
         item.add(p_dy);
         for (const double x : {a, b, c, d}) item.add(x);
-        // Rotated about the line of intersection until it is perpendicular to N, along_v stays on its side of T: this
-        // is the sign of the UVs as seen along N.
+        // If along_v is rotated about the line of intersection until it is perpendicular to N, it stays on the same
+        // side of T. This determines the sign of the UVs as seen along N.
         const double side = dot(cross(along_u, along_v), n);
         const DVec3 unit = unitOf(n);
         return item.expect(unit, unitOf(cross(across, unit)), side < 0 ? -1 : 1);
     }
 }
 
-/// Interpolated frame: shorter than 1, and N and T not exactly orthogonal. w also deviates in its last bits.
+/// An interpolated frame: N and T are shorter than 1 and not exactly orthogonal, and w deviates in its last bits.
 struct Interpolated {
     DVec3 normal, tangent, bitangent;
     double w, sign;
@@ -265,7 +267,7 @@ DVec3 someTexel(RandomBits& random) {
     const double x = number(random, -0.7, 0.7), y = number(random, -0.7, 0.7);
     return {x, y, number(random, 0.3, 1)};
 }
-/// Decodes a texel of a two-channel map.
+/// Returns the vector of a texel of a two-channel map.
 DVec3 unpackedTexel(double r, double g) {
     const double x = 2 * r - 1, y = 2 * g - 1;
     return {x, y, std::sqrt(std::fmax(0, 1 - x * x - y * y))};
@@ -293,7 +295,7 @@ void texelOfTwoItem(RandomBits& random, Item& item) {
     item.expect(unpackedTexel(r, g));
 }
 
-/// Shading with MikkTSpace, with bitangents computed per pixel or per vertex.
+/// Appends shading as MikkTSpace defines it, with bitangents computed per pixel or per vertex.
 void mikktspaceItem(RandomBits& random, Item& item) {
     const Interpolated in = someInterpolated(random);
     const DVec3 texel = someTexel(random);
@@ -317,7 +319,7 @@ void threeItem(RandomBits& random, Item& item) {
     item.add(face);
     item.expect(face * unitOf(combined(texel, unitOf(in.tangent), unitOf(in.bitangent), unitOf(in.normal))));
 }
-/// Adds the interpolated frame, and the normal expected for the two-channel texel (r, g).
+/// Appends the interpolated frame, and sets the normal that is expected for the two-channel texel (r, g).
 void addTwoChannelRest(RandomBits& random, Item& item, double r, double g) {
     const Interpolated in = someInterpolated(random);
     item.add(in.normal);
@@ -355,7 +357,7 @@ struct ItemCase {
     void (*make)(RandomBits&, Item&);
     double bound;
 };
-/// Cases from number 9 on, except the two of kAttributeCases. Bounds are a multiple of the errors of lavapipe: these
+/// The cases from number 9 on, except the two of kAttributeCases. Bounds are multiples of the errors of lavapipe; these
 /// functions divide by lengths down to 0.1.
 constexpr ItemCase kItemCases[] = {
     {"frameOfQuaternion", quaternionItem, 1e-6},
@@ -398,7 +400,7 @@ std::size_t caseCount() { return kFirstItemCase + std::size(kItemCases); }
 
 Case makeCase(std::uint32_t number, std::size_t count) {
     if (number < kFirstItemCase) return formatCase(test::kFormatNames[number], number, FrameFormat{number}, count, 4);
-    // Helpers for attributes: one word per byte or short.
+    // The cases of the helpers for attributes, with one word per byte or per 16-bit integer.
     if (number == kBytesCase) return formatCase("word", number, FrameFormat::frame32, count / 10, 1);
     if (number == kShortsCase) return formatCase("words", number, FrameFormat::frame64, count / 10, 2);
     return itemCase(number, kItemCases[number - kFirstItemCase], count / 10);

@@ -10,14 +10,15 @@
 
 namespace tspace::shaders {
 
-/// Each item has two output vectors of four floats: (normal, 0) and the tangent, or (vector, 0) and zeros.
+/// Number of floats of a result. An item has two result vectors of four floats: (normal, 0) and the tangent, or
+/// (vector, 0) and zeros.
 inline constexpr std::size_t kResultFloats = 8;
-/// Header of the buffer of words: number of the case, number of items, words per item, 0.
+/// Number of words of the header of a buffer: number of the case, number of items, words per item, and 0.
 inline constexpr std::size_t kHeaderWords = 4;
 
 struct Case {
     std::string name;
-    std::uint32_t number = 0;             ///< in the shaders
+    std::uint32_t number = 0;             ///< number of the case in the shaders
     std::size_t item_words = 0;           ///< number of words per item that a shader reads
     std::vector<std::uint32_t> buffer{};  ///< the header, then the words of the items
     std::vector<double> expected{};       ///< kResultFloats values per item
@@ -27,11 +28,11 @@ struct Case {
 };
 
 std::size_t caseCount();
-/// Creates case `number` with about `count` items, which are the same on every machine. O(count).
+/// Creates case `number` with about `count` items, which are the same on every machine. Takes time O(count).
 Case makeCase(std::uint32_t number, std::size_t count);
 
-/// Returns an empty string if the results are right: all components within the bound, and exact signs. Otherwise
-/// describes the first fault.
+/// Returns an empty string if all components are within the bound and all signs are exact. Otherwise returns a
+/// description of the first wrong result.
 std::string whatIsWrong(const Case& c, std::span<const float> results);
 /// Returns the largest difference of a component.
 double worstDifference(const Case& c, std::span<const float> results);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The importer on corrupt files: collections of other projects, under the names of all formats, and damaged files of
-// its own formats. Each gives a model or an error, and uses no more memory than its size allows.
+// The importer on corrupt files: files collected by other projects, renamed to all formats, and damaged files of the
+// importer's own formats. Each file gives a model or an error, and uses no more memory than its size allows.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -18,11 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A parser each.
+/// One file name extension for each parser.
 constexpr const char* kExtensions[] = {".3ds", ".ac",   ".b3d", ".blend", ".dae", ".dxf", ".fbx",
                                        ".lwo", ".ms3d", ".off", ".ply",   ".smd", ".stl", ".x"};
 
-/// Reads the file like tspace.
+/// Reads the file with the importer, as tspace does.
 void expectModelOrError(const std::string& path, const std::string& from) {
     const Result<Inspection> result = inspectFile(path, {.importer = TSPACE_IMPORTER});
     if (result) return;
@@ -30,7 +30,8 @@ void expectModelOrError(const std::string& path, const std::string& from) {
     EXPECT_EQ(std::count(result.error().message.begin(), result.error().message.end(), '\n'), 0) << from;
 }
 
-/// Checks the peak memory of this process's importers. The limit of a small file is 192 MiB of address space.
+/// Checks the peak memory of the importers that this process has run. The limit of a small file is 192 MiB of address
+/// space.
 void expectLittleMemory() {
 #ifndef TSPACE_SANITIZED  // with sanitizers the importer has no such limit
     rusage usage{};

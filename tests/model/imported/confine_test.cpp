@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Capabilities of a confined process. Each attempt is made by a separate child.
+// What a confined process can do. Each attempt is made by a separate child process.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -23,10 +23,12 @@ namespace {
 /// Exit code of a child whose kernel supports neither mechanism.
 constexpr int kHasNone = 77;
 
-/// Ends the process. Before _exit a sanitizer queries the signal stack, which a confined process must not do.
+/// Ends the process by a system call. _exit would not do: with sanitizers it queries the signal stack, which a confined
+/// process must not do.
 void end(int status) { syscall(SYS_exit_group, status); }
 
-/// Returns the exit status of a child that is confined to `folder` and then makes the attempt: 0 if it was possible.
+/// Returns the exit status of a child that is confined to `folder` and then makes the attempt: 0 if the attempt
+/// succeeded.
 int tryConfined(const std::string& folder, const std::function<bool()>& attempt,
                 bool import::Confinement::*part = &import::Confinement::of_files) {
     const pid_t child = fork();
@@ -103,7 +105,7 @@ TEST(Confinement, ProgramsProcessesConnectionsAndSignalsFail) {
             char name[] = "true";
             char* arguments[] = {name, nullptr};
             execv("/bin/true", arguments);
-            return false;  // exit status 0 would mean that the program ran, which must not happen
+            return false;  // execv returned, so the program did not run
         },
         [] { return kill(getppid(), 0) == 0; },
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files in meters of a map projection: STL with the shape that the file has in double precision, COLLADA and FBX with a
-// warning about the loss of precision in floats.
+// Files in meters of a map projection. From STL, the shape is as precise as the file in double precision. COLLADA and
+// FBX cause a warning that floats lost precision.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -210,10 +210,10 @@ TEST(FarCollada, TheUnitCountsForPlacesOfNodes) {
 TEST(FarStl, FloatsOfBinaryFilesHaveTheSameNormalsNearTheOrigin) {
     constexpr DVec3 kWhole{456123, 5261789, 0};
     Part far = sheet(kSide, kWhole + DVec3{0.2, 0.2, 412}), near = far;
-    for (DVec3& p : far.positions) p = 8.0 * p;  // so that floats preserve a part of the shape
+    for (DVec3& p : far.positions) p = 8.0 * p;  // larger, so that floats preserve a part of the shape
     for (std::size_t i = 0; i < far.positions.size(); ++i)
         near.positions[i] = toDouble(toFloat(far.positions[i])) - 8.0 * kWhole;
-    // Far from the origin the spacing of floats, and therefore the automatic distance, is larger.
+    // Far from the origin the spacing of floats is larger, and so is the automatic weld distance.
     const Made made = make(".stl", binaryStl(far), false, 0), moved = make(".stl", binaryStl(near), false, 0);
     EXPECT_FALSE(made.hasOffset());
     EXPECT_TRUE(made.warns("does not store more digits"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Models in other formats become glTF with frames, and a corrupt one only causes an error.
+// Models in other formats become glTF with frames, and a corrupt model only causes an error.
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@
 namespace tspace::test {
 namespace {
 
-/// Writes the contents of the glTF file in Assimp's format `format`.
+/// Converts the glTF file to `format`, a format of Assimp, and returns the path of the new file.
 std::string exported(const TempFolder& folder, const std::string& gltf, const std::string& format,
                      const std::string& extension) {
     Assimp::Importer importer;
@@ -41,7 +41,7 @@ Result<GenerateReport> generate(const std::string& input, const std::string& out
 
 ErrorCode codeOf(const Result<GenerateReport>& report) { return report ? ErrorCode::ok : report.error().code; }
 
-/// Converts exceptions of the library to a form that a test prints.
+/// Converts exceptions of the library to exceptions that a test prints.
 template <class Body>
 auto readable(Body&& body) {
     try {
@@ -82,7 +82,7 @@ TEST_P(EachFormat, KeepsTheSurfaceAndGetsFrames) {
         return;
     }
     EXPECT_EQ(report->primitives[0].action, PrimitiveAction::generated);
-    // Text formats write few digits; the frames of the sheet still equal those of the glTF file.
+    // Text formats write few digits, but the frames of the sheet still equal those of the glTF file.
     const std::string direct = folder.path("direct.glb").string();
     ASSERT_TRUE(generate(original, direct).ok());
     const Result<FrameDiff> diff = diffFiles(direct, output);
@@ -113,7 +113,7 @@ TEST(Import, UnitsOfFbxBecomeMeters) {
     ASSERT_NE(text.find(key), std::string::npos) << text.substr(0, 3000);
     const std::size_t begin = text.find(key) + key.size();
     const std::size_t size = text.find('\n', begin) - begin;
-    // Centimeters per unit. Negative units are ignored.
+    // Units are in centimeters. Negative units are ignored.
     for (const auto& [unit, scale] : {std::pair("1", 0.01F), {"2.54", 0.0254F}, {"100", 1.0F}, {"-1", 1.0F}}) {
         folder.write("units.fbx", std::string{text}.replace(begin, size, unit));
         const std::string path = folder.path("units.fbx").string();
@@ -125,7 +125,7 @@ TEST(Import, UnitsOfFbxBecomeMeters) {
 
 TEST(Import, TriangulatesPolygonsByTheRuleOfTspace) {
     const TempFolder folder;
-    // The diagonal 0-2 is the shorter one.
+    // The diagonal from corner 0 to corner 2 is the shorter one.
     const std::string path =
         folder.write("quad.ply",
                      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
@@ -165,7 +165,7 @@ TEST(Import, KeepsNormalMapsUvSetsAndImages) {
 TEST(Import, KeepsSkinsMorphsAndAnimations) {
     struct Case {
         const char* file;
-        const char* what;  ///< a name in the JSON
+        const char* what;  ///< name of a member in the JSON of the output
     };
     for (const auto& [file, what] :
          {Case{"models/features/box-morph.gltf", "\"targets\""},
@@ -196,8 +196,8 @@ TEST(Import, ValuesThatAreNotFiniteAreReplacedAndReported) {
     EXPECT_EQ(scene.primitives[0].positions[0], (Vec3{0, 0, 0}));
 }
 
-/// Returns a sheet of 3 x 3 vertices, `step` apart, with its corner at (x, y), as text STL, which has more digits than
-/// floats.
+/// Returns a sheet of 3 x 3 vertices, `step` apart, with its corner at (x, y). It is a text STL, which has more digits
+/// than floats.
 std::string stlSheet(double x, double y, double step) {
     std::string text = "solid sheet\n";
     for (const int a : {0, 1, 3, 4}) {
@@ -212,7 +212,8 @@ std::string stlSheet(double x, double y, double step) {
     return text + "endsolid sheet\n";
 }
 
-/// Returns the sheet as PLY. `type`: type of the coordinates; `format`: "ascii", or binary with doubles.
+/// Returns the sheet as a PLY file. `type`: type of the coordinates. `format`: "ascii", or a binary format, in which
+/// coordinates are doubles.
 std::string plySheet(double x, double y, double step, const std::string& format, const std::string& type = "double") {
     std::string text = "ply\nformat " + format + " 1.0\nelement vertex 9\nproperty uchar tag\n";
     for (const char* axis : {"x", "y", "z"}) text += "property " + type + " " + axis + "\n";
@@ -287,7 +288,7 @@ TEST(Import, PlyFarFromTheOriginKeepsItsShape) {
     EXPECT_TRUE(generate(near, folder.path("n.glb").string())->warnings.empty());
 }
 
-/// Returns a triangle without UVs as COLLADA.
+/// Returns a triangle without UVs as a COLLADA file.
 std::string daeTriangle(const char* normals, const char* diffuse) {
     const auto source = [](const char* name, const char* values) {
         return "<source id='" + std::string(name) + "'><float_array id='" + name + "-a' count='9'>" + values +
@@ -340,7 +341,7 @@ constexpr const char* kTriangle =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
-/// Returns a LightWave scene that loads its meshes from other files.
+/// Writes a LightWave scene that loads its meshes from other files.
 std::string sceneOfFiles(const TempFolder& folder, std::initializer_list<const char*> names) {
     std::string text = "LWSC\n3\n\n";
     for (const char* name : names) text += "LoadObjectLayer 1 " + std::string(name) + "\nShowObject 6 8421504\n\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parsing and rewriting that tspace-import does before Assimp reads the file. Every byte may be malicious.
+// Parsing and rewriting of files by tspace-import before Assimp reads them. Every byte may be malicious.
 #include "near_origin/near_origin.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ std::string plyText(const DVec3& place) {
     return text + "3 0 1 2\n";
 }
 
-/// Reads and rewrites an arbitrary file.
+/// Reads an arbitrary file and rewrites it.
 void readAnything(const std::string& file) {
     for (const auto& reader : {import::readStl, import::readPly}) {
         const import::Coordinates coordinates = reader({file.begin(), file.end()});

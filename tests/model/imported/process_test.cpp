@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The importer's process: its resource limits, and that neither the process nor its files outlive the tool.
+// The importer as a process: its resource limits, and that neither the process nor its files outlive the tool.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// 58 bytes that keep Assimp 5 busy for minutes.
+/// These 58 bytes keep Assimp 5 busy for minutes.
 std::string endlessPly(const TempFolder& folder) {
     return folder.write("endless.ply", "ply\nformat ascii 1.0\nelement vertex 2147483647\nend_header\n");
 }
@@ -49,7 +49,7 @@ TEST(ImportProcess, FilesWithHugeCountsAreStoppedAfterTwoSeconds) {
     }
 }
 
-/// Writes a program that replaces the importer.
+/// Writes a script that is used in place of the importer.
 std::string script(const TempFolder& folder, const std::string& commands) {
     const std::string path = folder.write("importer", "#!/bin/sh\n" + commands);
     fs::permissions(path, fs::perms::owner_all);
@@ -116,8 +116,8 @@ std::string textOf(const fs::path& path) {
     return text.str();
 }
 
-/// Returns the processes whose command line contains both texts; ended processes that wait for their parent have no
-/// command line.
+/// Returns the processes whose command line contains both texts. Processes that have ended but wait for their parent
+/// have no command line.
 std::vector<pid_t> processesWith(const std::string& program, const std::string& path) {
     std::vector<pid_t> found;
     for (const auto& entry : fs::directory_iterator("/proc")) {
@@ -130,7 +130,7 @@ std::vector<pid_t> processesWith(const std::string& program, const std::string& 
     return found;
 }
 
-/// A tool that is processing a file, with a separate folder for temporary files.
+/// A tool that is processing a file, with a folder of its own for temporary files.
 class RunningTool : public StartedTool {
   public:
     RunningTool(const TempFolder& folder, std::vector<std::string> arguments)
@@ -176,7 +176,7 @@ TEST(ImportProcess, OpensOnlyItsModelAndItsPipes) {
     const int secret = open(folder.path("secret").c_str(), O_RDONLY);
     ASSERT_GE(secret, 0);
     RunningTool tool(folder, {"inspect", endlessPly(folder), "--import-seconds", "100"});
-    // The model is opened last.
+    // The importer opens the model last.
     const auto open_files = [&] {
         std::set<std::string> files;
         for (const pid_t importer : tool.importers()) {

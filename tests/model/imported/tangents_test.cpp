@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tangents of other formats: those of FBX are read, with their signs. If a format or the importer cannot provide
-// tangents, no report states that the file has none.
+// Tangents of other formats. Those of FBX are read, with their signs. If a format or the importer cannot provide
+// tangents, no report says that the file has none.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,14 +35,14 @@ std::string list(const std::vector<std::string>& values) {
 
 std::vector<std::string> times(const std::string& a, const std::string& b) { return {a, a, a, a, b, b, b, b}; }
 
-/// Frames in the text of an FBX file.
+/// The tangents and bitangents in the text of an FBX file.
 struct Stored {
     std::string tangents = list(times("1,0,0", "-1,0,0"));
     std::string bitangents = list(times("0,1,0", "0,1,0"));
 };
 
-/// Writes two adjacent squares. The texture is mirrored on the second one, and has a normal map. Text format, like
-/// Autodesk's SDK.
+/// Writes an FBX file in the text format of Autodesk's SDK: two adjacent squares with a normal map, which is mirrored
+/// on the second one.
 std::string writeSquares(const TempFolder& folder, const Stored& stored) {
     std::string layers = layer("Normal", "Normals", list(times("0,0,1", "0,0,1")), 24);
     std::vector<std::string> kinds = {"Normal", "UV"};
@@ -189,7 +189,7 @@ TEST(ImportTangents, UnreadTangentsAreNotComparedAndDiffReportsIt) {
     EXPECT_FALSE(diff->primitives.at(0).tangents_not_read_b);
 }
 
-/// Writes a square in COLLADA, with the attribute that exporters call texture tangents.
+/// Writes a square as a COLLADA file, with the input that exporters call TEXTANGENT.
 std::string writeDae(const TempFolder& folder, const std::string& bitangent) {
     const auto source = [](const std::string& id, const std::string& values, int count, const std::string& names) {
         std::string params;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// JSON values, and formatting identical to that of the library that also parses.
+// JSON values, and formatting that is identical to that of the library nlohmann/json.
 #include "model/json/json.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 using Oracle = nlohmann::ordered_json;
 
-/// Returns strings with every kind of byte; valid UTF-8 unless `any_bytes`.
+/// Returns a text with every kind of byte. It is valid UTF-8 unless `any_bytes` is set.
 std::string randomText(bool any_bytes) {
     std::string text;
     for (const int kind : *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, any_bytes ? 7 : 6))) {
@@ -25,7 +25,7 @@ std::string randomText(bool any_bytes) {
     return text;
 }
 
-/// Two copies of a random value.
+/// A random value, as a value of both libraries.
 struct Twin {
     Json json;
     Oracle oracle;
@@ -33,7 +33,7 @@ struct Twin {
 
 Twin randomTwin(int depth, bool any_bytes) {
     const auto same = [](const auto& value) { return Twin{value, value}; };
-    // Arrays and objects are as frequent as all other values, while nesting is allowed.
+    // While nesting is allowed, half of the values are arrays or objects.
     const int kind = depth > 0 && *rc::gen::arbitrary<bool>() ? 7 + *rc::gen::arbitrary<bool>()
                                                               : *rc::gen::element(0, 1, 2, 3, 4, 5, 6);
     switch (kind) {
@@ -102,7 +102,7 @@ RC_GTEST_PROP(JsonText, IsRejectedExactlyWhereTheLibraryRefusesIt, ()) {
     try {
         static_cast<void>(Json::parse(text));
     } catch (const JsonError& error) {
-        if (error.repeated) return;  // the library uses the last one
+        if (error.repeated) return;  // the other library accepts repeated members
         accepts = false;
     }
     RC_ASSERT(accepts == Oracle::accept(text));
@@ -178,7 +178,7 @@ TEST(Json, ComparesNumbersByValue) {
 
 TEST(Json, ConvertsToTheNearestRepresentableNumber) {
     const std::uint64_t more = (std::uint64_t{1} << 32) + 16;
-    EXPECT_EQ(Json(more).get<std::uint32_t>(), 0xffffffffU);  // and not 16
+    EXPECT_EQ(Json(more).get<std::uint32_t>(), 0xffffffffU);  // saturates; not 16, the low bits
     EXPECT_EQ(Json(more).get<std::uint64_t>(), more);
     EXPECT_EQ(Json(more).get<std::int32_t>(), 0x7fffffff);
     EXPECT_EQ(Json(~std::uint64_t{0}).get<std::int64_t>(), std::numeric_limits<std::int64_t>::max());

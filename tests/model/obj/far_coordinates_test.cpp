@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OBJ in meters of a map projection: the shape must match the file's decimals, not their rounding to floats.
+// OBJ files in meters of a map projection: the shape must match the decimals of the file, not their rounding to floats.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using gltf::Json;
 constexpr int kSide = 12;
 constexpr double kStep = 0.15;
 
-/// Formats with 4 decimals, independent of the locale.
+/// Returns a number with 4 decimals, in every locale.
 std::string decimals(double value) {
     char text[64];
     const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, 4);
@@ -35,8 +35,8 @@ std::string vertexLine(const DVec3& p) {
     return "v " + decimals(p.x) + ' ' + decimals(p.y) + ' ' + decimals(p.z) + '\n';
 }
 
-/// Returns a bumpy square of kSide x kSide vertices with its corner at `place`. `before`: text before the faces;
-/// indices are relative, so that several squares can be concatenated.
+/// Returns a bumpy square of kSide x kSide vertices with its corner at `place`. `before`: text before the faces.
+/// Indices are relative, so that several squares can be concatenated.
 std::string scan(const DVec3& place, const std::string& before = "s 1\n") {
     std::string text;
     for (int y = 0; y < kSide; ++y) {
@@ -61,7 +61,7 @@ std::string scan(const DVec3& place, const std::string& before = "s 1\n") {
 }
 
 constexpr DVec3 kFar{456123.2, 5261789.2, 412};
-/// The center, rounded to the model's size; heights lose nothing relevant.
+/// The center, rounded to a multiple that depends on the model's size. Heights are small enough to need no offset.
 constexpr DVec3 kOffset{456124, 5261790, 0};
 
 struct FarModel {

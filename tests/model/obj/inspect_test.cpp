@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Geometry reported by inspectFile.
+// Geometry that inspectFile reports.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace tspace::test {
 namespace {
 
-/// A square of two triangles, with UVs; `u_sign` -1 mirrors the texture.
+/// A square of two triangles with UVs.
 struct Square {
     std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     std::vector<Vec2> uvs{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -82,7 +82,7 @@ TEST(UvMap, DegenerateTrianglesAreCounted) {
 }
 
 TEST(UvMap, AnIslandIsMirroredWhenMostOfItsAreaIs) {
-    // A strip that folds back in UV: the second square is larger and mirrored.
+    // A strip whose second square is mirrored in UV space, so that it covers the first one; it is also larger.
     Square square;
     square.positions.insert(square.positions.end(), {{3, 0, 0}, {3, 1, 0}});
     square.uvs.insert(square.uvs.end(), {{-2, 0}, {-2, 1}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// OBJ to glTF: preserved, computed, and rejected data.
+// OBJ to glTF: which data is preserved, computed, and rejected.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,12 +23,12 @@ using gltf::Json;
 constexpr const char* kQuad =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
     "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
-/// PNG data up to the size, which is two by one.
+/// The start of a PNG, up to its size of 2 x 1 pixels.
 const std::string kPng("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\2\0\0\0\1 not really", 35);
-/// JPEG data up to the size.
+/// The start of a JPEG, up to its size.
 const std::string kJpeg("\xff\xd8\xff\xc0\0\x0b\x08\0\1\0\2\3 not really", 23);
 
-/// One pixel of a flat normal map: images of map_bump are decoded, to distinguish normal maps from height maps.
+/// Returns a flat normal map of one pixel. Images of map_bump are decoded, to distinguish normal maps from height maps.
 std::string flatPng() {
     constexpr unsigned char kBytes[] = {
         0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
@@ -38,7 +38,7 @@ std::string flatPng() {
     return {reinterpret_cast<const char*>(kBytes), sizeof kBytes};
 }
 
-/// The result of generating from an OBJ text, read back.
+/// The result of generating from an OBJ text, read from its output.
 struct ObjModel {
     GenerateReport report = {};
     gltf::Document document = {};
@@ -87,7 +87,7 @@ bool mentions(const std::vector<std::string>& sentences, const std::string& text
 TEST(Obj, KeepsPolygonsOfAnySizeUntilFramesAreComputed) {
     std::ostringstream obj;
     std::ostringstream face;
-    constexpr int kCorners = 400;  // more than the parser's own 8-bit counts can represent
+    constexpr int kCorners = 400;  // more than 8 bits can represent, with which the parser counts corners
     for (int i = 1; i <= kCorners; ++i) {
         const double a = i * 2 * 3.14159265358979 / kCorners;
         obj << "v " << std::cos(a) << ' ' << std::sin(a) << " 0\nvt " << std::cos(a) << ' ' << std::sin(a) << '\n';
@@ -171,7 +171,7 @@ TEST(Obj, EachShapeIsAMeshAndEachMaterialInItAPrimitive) {
     EXPECT_EQ(made.corners(0).size(), 6U) << "the object comes back later in the file";
 }
 
-/// Two quads at a right angle; the edge between them has vertices 2 and 3.
+/// Returns two quads at a right angle. The edge between them has vertices 2 and 3.
 std::string folded(const std::string& before_faces) {
     return std::string(kQuad) + "v 1 0 -1\nv 1 1 -1\nvt 2 0\nvt 2 1\n" + before_faces +
            "f 1/1 2/2 3/3 4/4\nf 2/2 5/5 6/6 3/3\n";
@@ -276,7 +276,7 @@ TEST(Obj, TangentsAreMadeWhereTheMaterialHasANormalMap) {
     }
 }
 
-/// -o, -s and -t take one, two or three numbers; the file name is not a number.
+/// The options -o, -s and -t take one, two or three numbers. The file name after them is not one of them.
 TEST(Obj, OptionsOfTexturesDoNotIncludeTheName) {
     for (const char* options :
          {"-s 2", "-s 2 2", "-s 2 2 1", "-o 0.5 -s 2 2", "-t .5", "-o -1e-1 +2. -bm 0.5", "-mm 0.1 -clamp on", "-s 1 1",
@@ -371,7 +371,7 @@ TEST(Obj, MissingForbiddenAndInvalidTexturesAreIgnoredWithAWarning) {
     EXPECT_TRUE(made.document.json.contains("images"));
 }
 
-/// In Shift-JIS, GBK and Big5 the second byte of a character may equal a backslash, which is then no line continuation.
+/// In Shift-JIS, GBK and Big5, the second byte of a character may equal a backslash. It does not continue a line then.
 TEST(Obj, TextThatIsNotUtf8KeepsItsBytesAndGivesAWarning) {
     const TempFolder folder;
     folder.write("in/m.mtl", "newmtl \x94\xa7\nnorm \x94\xa7.png\n");
@@ -393,7 +393,8 @@ TEST(Obj, TextThatIsNotUtf8KeepsItsBytesAndGivesAWarning) {
     EXPECT_FALSE(mentions(plain.report.warnings, "not UTF-8"));
 }
 
-/// "\x95\x5c" is one character in Shift-JIS; "\xb1\x5c" is one in GBK, but half a width of katakana and a separator in Shift-JIS.
+/// 95 5c (hexadecimal) is one character in Shift-JIS. b1 5c is one character in GBK, but a half-width katakana and a
+/// separator in Shift-JIS.
 TEST(Obj, BytesOfABackslashInNamesOfFilesAreKept) {
     const std::string faces = std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n";
     for (const auto& [named, stored] : {std::pair{"\x95\x5c.png", "\x95\x5c.png"},
@@ -462,7 +463,7 @@ TEST(Obj, IndicesAreSixteenBitsWhereTheySuffice) {
         const ObjModel made = make(folder, obj.str());
         return made.document.json["accessors"][*made.primitives[0].indices]["componentType"].get<int>();
     };
-    EXPECT_EQ(componentType(21845), 5123);  // 65535 vertices
+    EXPECT_EQ(componentType(21845), 5123);  // 65535 vertices: the largest number for 16-bit indices
     EXPECT_EQ(componentType(21846), 5125);
 }
 
@@ -491,7 +492,8 @@ TEST(Obj, MalformedFilesAreRejectedWithTheLine) {
     }
 }
 
-/// Exporters do write such files: all normals missing but not their indices, or 0 for a missing normal of a corner.
+/// Such files exist: normals that are missing although faces have indices of them, or index 0 for a corner without a
+/// normal.
 TEST(Obj, FacesWithMissingUvsOrNormalsHaveNone) {
     const std::string vertices = std::string(kQuad) + "vn 0 0.6 0.8\nf 1/1/1 2/2/1 4/4/1\n";
     const std::string rest = "f 2/2/1 3/3/1 4/4/1\n";
@@ -525,7 +527,7 @@ TEST(Obj, UnusualFloatsAreParsed) {
     }
 }
 
-/// Returns the processor seconds for preparing a text with this number of faces.
+/// Returns the processor time, in seconds, of preparing a text with this number of faces.
 double secondsToPrepare(int face_count) {
     std::string text;
     for (int f = 0; f < face_count; ++f) text += "f 1/1 2/2 3/3 4/4\n";
@@ -535,7 +537,8 @@ double secondsToPrepare(int face_count) {
 }
 
 TEST(ObjTime, GrowsLinearlyWithTheNumberOfFaces) {
-    // Ten times the faces take ten times the time; a search through the rest of the file would take a hundred times.
+    // Ten times the faces must not take forty times the time. A search through the rest of the file would take a
+    // hundred times.
     EXPECT_LT(secondsToPrepare(400000), 40 * secondsToPrepare(40000) + 0.05);
 }
 
@@ -546,7 +549,7 @@ TEST(Obj, OnlyGlTfIsWritten) {
     EXPECT_EQ(folder.files(), std::set<std::string>{"a.obj"});
 }
 
-/// Returns every .obj below a folder of the shared data.
+/// Returns all .obj files below a folder of the shared data.
 std::vector<std::string> sharedObjFiles(const std::string& relative) {
     std::vector<std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(shared(relative))) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // run.mjs CHROMIUM SHADERS DATA DOCS: runs the shaders in headless Chromium on the cases in DATA (N.case), and writes
-// the results to DATA/LANGUAGE.N.results. WGSL code in the file DOCS must compile. Prints which languages ran, and why
-// WebGPU did not run, if so.
+// the results to DATA/LANGUAGE.N.results. WGSL code in the file DOCS must compile. Prints which languages ran and, if
+// WebGPU did not run, why.
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs cases with WebGL 2: words are stored in texels, items are pixels, and results are returned as the bits of
+// Runs cases with WebGL 2: words are stored in texels, each item is a pixel, and results are returned as the bits of
 // floats.
 const WORDS_WIDE = 4096, ITEMS_WIDE = 2048;
 
@@ -25,7 +25,8 @@ void main() {
 }
 `;
 
-/// Position and UV change from pixel to pixel by the values of an item of frameOfSteps.
+/// Returns a fragment shader in which position and UV change from pixel to pixel by the values of an item of
+/// frameOfSteps.
 const pixelShader = (shader) => `#version 300 es
 #define TSPACE_FRAGMENT
 ${shader}
@@ -71,8 +72,8 @@ function makeTexture(gl, format, width, height, layout, data) {
     return texture;
 }
 
-/// Renders to two targets with four words per pixel; `draw` fills them. Returns the words of each pixel, first and
-/// second target.
+/// Renders to two targets with four words per pixel. `draw` fills them. Returns the words of each pixel: first those of
+/// the first target, then those of the second one.
 function drawAndRead(gl, width, height, draw) {
     const targets = [0, 1].map(() => makeTexture(gl, gl.RGBA32UI, width, height, gl.RGBA_INTEGER, null));
     const frame = gl.createFramebuffer();

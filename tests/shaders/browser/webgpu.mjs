@@ -11,7 +11,7 @@ async function compile(device, source) {
     throw Object.assign(new Error(`WGSL does not compile: ${message}: ${line}`), { is_wrong_shader: true });
 }
 
-/// `source` runs the cases; the other shaders only need to compile.
+/// Opens a device. `source`: the shader that runs the cases; the other shaders only need to compile.
 export async function openWebGpu(source, others) {
     if (!navigator.gpu) throw new Error("this Chromium has no WebGPU");
     const adapter = await navigator.gpu.requestAdapter();
