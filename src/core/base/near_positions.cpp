@@ -65,7 +65,7 @@ class PositionCells {
     [[nodiscard]] std::uint32_t lowestNear(const Vec3& p) const {
         const std::array<double, 2> x = cellsNear(p.x), y = cellsNear(p.y), z = cellsNear(p.z);
         std::uint32_t lowest = kNoVertexNear;
-        for (int i = 0; i < 8; ++i) {
+        for (unsigned i = 0; i < 8; ++i) {
             const bool is_again =
                 ((i & 1) != 0 && x[0] == x[1]) || ((i & 2) != 0 && y[0] == y[1]) || ((i & 4) != 0 && z[0] == z[1]);
             if (!is_again) lowest = std::min(lowest, lowestIn({x[i & 1], y[i >> 1 & 1], z[i >> 2]}, p));
