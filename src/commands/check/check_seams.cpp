@@ -29,7 +29,7 @@ constexpr double kOwnDeg = 1;
 constexpr double kMoreBend = 1.25, kSmoothPart = 0.9;
 /// A seam is reported only if at least this share, and at least this number, of the points with differing normals look
 /// like a seam.
-constexpr double kMaxPlaces = 0.8;
+constexpr double kMinPlaceShare = 0.8;
 constexpr std::size_t kMinPlaces = 3;
 
 /// Approximate memory for comparing the primitives of a mesh; freed afterwards.
@@ -153,7 +153,7 @@ class MeshSeams {
             compareBorder(joined, border, smooth, seams[{border.triangles[0].piece, border.triangles[1].piece}]);
         }
         for (const auto& [pair, seam] : seams) {
-            const auto least = kMaxPlaces * static_cast<double>(seam.places.size());
+            const auto least = kMinPlaceShare * static_cast<double>(seam.places.size());
             if (seam.likely.size() < kMinPlaces || static_cast<double>(seam.likely.size()) < least) continue;
             findings.push_back(findingOf(pair, seam));
         }

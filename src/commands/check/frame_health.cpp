@@ -216,10 +216,10 @@ constexpr double kSameDeg = 1;
 /// Maximum number of vertices at one point that a vertex is compared with. Poles have more, but one match is
 /// sufficient.
 constexpr std::size_t kMaxCompared = 64;
-/// If this share of a patch has wrong directions, all its directions are treated as wrong. kMaxly is sufficient if
+/// If this share of a patch has wrong directions, all its directions are treated as wrong. kMajority is sufficient if
 /// kNothingRight of the whole surface is wrong.
 constexpr double kNothingRight = 0.95;
-constexpr double kMaxly = 0.5;
+constexpr double kMajority = 0.5;
 
 enum class Cause { unknown, uvSeam, mirroredSeam };
 
@@ -295,12 +295,12 @@ void findUndecided(const TangentView& mesh, const Surface& surface, std::span<co
         wrong[patches.of(v)] += surface.known_areas[v];
         all_wrong += surface.known_areas[v];
     }
-    const double share = all_wrong >= kNothingRight * all_judged ? kMaxly : kNothingRight;
+    const double share = all_wrong >= kNothingRight * all_judged ? kMajority : kNothingRight;
     for (std::uint32_t v = 0; v < count; ++v) {
         if (directions[v] == kUnknownDirection || health.isSettled(v)) continue;
         const std::uint32_t patch = patches.of(v);
         // A tangent that is outside its cone, but within the tolerance, is treated as wrong if half of its patch is.
-        const double least = directions[v] > kInsideDeg ? kMaxly : share;
+        const double least = directions[v] > kInsideDeg ? kMajority : share;
         if (wrong[patch] > 0 && wrong[patch] >= least * judged[patch])
             health.fault(v, FindingCode::directionsWrong, count);
     }

@@ -79,7 +79,7 @@ MovedFaces::MovedFaces(const ScenePrimitive& primitive, std::span<const ScenePri
         Face face{moved.crossOf(triangle, false), moved.crossOf(triangle, true)};
         const double before = length(face.base), after = length(face.moved);
         if (before == 0 && after == 0) return;
-        if (!(after >= kCollapsed * before && before >= kCollapsed * after)) faces_[point].is_open = true;
+        if (!(after >= kCollapsed * before && before >= kCollapsed * after)) faces_[point].is_degenerate = true;
         if (!normalize(face.base) || !normalize(face.moved)) return;
         std::vector<Face>& faces = faces_[point].list;
         const bool is_known = std::any_of(faces.begin(), faces.end(), [&](const Face& other) {
@@ -114,7 +114,7 @@ MovedFaces::MovedFaces(const ScenePrimitive& primitive, std::span<const ScenePri
 bool MovedFaces::admit(std::size_t i, const DVec3& normal, const VertexRotation& turn, bool is_hard,
                        double slack) const {
     constexpr double kHard = 0.17364817766693034;  // cosine of 80 degrees
-    if (faces_[point_of_[i]].is_open) return true;
+    if (faces_[point_of_[i]].is_degenerate) return true;
     const DVec3 from = toDouble(turn.from), to = toDouble(turn.to);
     const auto forFaces = [&](const auto& visit) {
         for (const Face& face : faces_[point_of_[i]].list) {

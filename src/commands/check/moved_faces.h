@@ -37,7 +37,7 @@ class MovedFaces {
         std::vector<Face> list = {};
         /// A face here is degenerate before or after the morph, so the mean normal depends on the face weights, and any
         /// normal is admitted.
-        bool is_open = false;
+        bool is_degenerate = false;
     };
     std::vector<Point> faces_ = {};
     std::vector<std::uint32_t> point_of_ = {};  ///< one per entry of `vertices`

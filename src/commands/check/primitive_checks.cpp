@@ -31,7 +31,7 @@ namespace {
 /// degrees). The margin over 90 degrees allows for coarse smooth shading.
 constexpr double kMinFacing = -0.1;
 /// Share of the surface from which the whole mesh is reported as inside out; kNearlyAll if it is double-sided.
-constexpr double kMaxOfSurface = 0.5;
+constexpr double kSurfaceMajority = 0.5;
 constexpr double kNearlyAll = 0.95;
 constexpr double kSomeNormals = 0.01;
 /// Minimum angle in degrees between a normal and the nearest triangle normal. A mean over an edge of a box is 45
@@ -174,7 +174,7 @@ void checkWinding(PrimitiveFacts& facts, const Directions& directions) {
     against.finish(facts.surface.area);
     if (against.count == 0) return;
     // Double-sided leaves and grass often have the normals of the whole tree or ground on purpose.
-    const double mostly = facts.primitive.is_double_sided ? kNearlyAll : kMaxOfSurface;
+    const double mostly = facts.primitive.is_double_sided ? kNearlyAll : kSurfaceMajority;
     const Severity severity = against.surface_share >= mostly         ? Severity::error
                               : against.surface_share >= kSomeNormals ? Severity::warning
                                                                       : Severity::note;

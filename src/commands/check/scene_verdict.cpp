@@ -22,7 +22,7 @@ namespace tspace {
 namespace {
 
 /// Share of the examined surface from which wrong signs indicate another convention rather than single faults.
-constexpr double kMaxSigns = 2.0 / 3;
+constexpr double kSignMajority = 2.0 / 3;
 
 /// Primitives with equal keys have the same findings. Arrays that a file shares have the same address.
 class PrimitiveKey {
@@ -255,7 +255,7 @@ void lowerSigns(PrimitiveJudgement& judgement, MapEffect maps) {
     Finding* inverted = judgement.find(FindingCode::signsInverted);
     Finding* wrong = judgement.find(FindingCode::signsWrong);
     if (inverted == nullptr && wrong == nullptr) return;
-    const bool most = judgement.wrong_sign_share >= kMaxSigns;
+    const bool most = judgement.wrong_sign_share >= kSignMajority;
     judgement.signs = maps == MapEffect::cancel ? SignVerdict::cancelled
                       : most                    ? SignVerdict::open
                                                 : SignVerdict::plain;

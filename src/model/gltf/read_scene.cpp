@@ -195,10 +195,6 @@ SurfaceLook readLook(const Document& document, const Primitive& primitive) {
     look.is_double_sided = readBool(material, "doubleSided", place, false);
     look.is_unlit = isUnlit(document, *primitive.material);
     look.is_blended = readString(material, "alphaMode", place) == "BLEND";
-    if (const Json* strength = findExtension(material, "KHR_materials_emissive_strength")) {
-        const double factor = readNumber(*strength, "emissiveStrength", join(place, "extensions"), 1);
-        for (double& part : look.emission) part *= std::max(0.0, factor);
-    }
     return look;
 }
 
