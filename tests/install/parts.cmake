@@ -103,7 +103,7 @@ if(HAS_TOOL)
     endif()
     # Empty files in place of the output of scripts/demo.
     file(TOUCH "${FOLDER}/all/libtspace.a" "${FOLDER}/all/bin/tspace")
-    foreach(wing mesh images maps model commands)
+    foreach(wing mesh images maps textures model commands)
         file(TOUCH "${FOLDER}/all/libtspace_${wing}.a")
     endforeach()
     install_all("${FOLDER}/all")

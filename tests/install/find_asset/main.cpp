@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Uses one function of the installed library for files, which is enough to link it.
-#include <tspace/generate.h>
+#include <tspace/inspect.h>
 
 int main() {
     const auto result = tspace::inspectFile("there-is-no-such-file.glb");
