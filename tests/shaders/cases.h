@@ -34,7 +34,7 @@ Case makeCase(std::uint32_t number, std::size_t count);
 /// Returns an empty string if all components are within the bound and all signs are exact. Otherwise returns a
 /// description of the first wrong result.
 std::string whatIsWrong(const Case& c, std::span<const float> results);
-/// Returns the largest difference of a component.
+/// Returns the largest difference between a component of the results and its expected value.
 double worstDifference(const Case& c, std::span<const float> results);
 
 }  // namespace tspace::shaders

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs one function of tspace.metal on one item: reads words from index `at`, and returns two vectors. The including
-// file defines wordAt; the case numbers are those of cases.cpp.
+// Runs one function of tspace.metal on one item: reads the item's words from index `at`, and returns two vectors. The
+// file that includes this one defines wordAt. The numbers of cases are those of cases.cpp.
 inline float numberAt(uint at) { return metal::as_type<float>(wordAt(at)); }
 inline float2 pairAt(uint at) { return float2(numberAt(at), numberAt(at + 1u)); }
 inline float3 vectorAt(uint at) { return float3(pairAt(at), numberAt(at + 2u)); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The costs stated in the comments of the shaders equal the compiler's counts.
+// The costs in the comments of the shaders equal the counts of operations in the compiled shaders.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -12,7 +12,7 @@ namespace tspace::shaders {
 
 namespace {
 
-/// Returns the "// Cost: ..." comments, keyed by the function that follows.
+/// Returns the text of the comments "// Cost: ...", by the name of the function that follows.
 std::map<std::string, std::string> statedCosts(const std::string& file_name) {
     std::ifstream file(TSPACE_SHADER_FOLDER "/" + file_name);
     const std::regex stated("^// Cost: (.*)\\.$"), function("\\btspace_\\w+(?=\\()");

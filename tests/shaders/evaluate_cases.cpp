@@ -34,7 +34,8 @@ Vec3 vectorAt(const std::vector<std::uint32_t>& words, std::size_t at) {
     return {number(0), number(1), number(2)};
 }
 
-/// Returns positions rotated about y by an angle that grows with x, and a wave: all triangles change their shape.
+/// Returns positions rotated about y by an angle that grows with x, plus a wave, so that all triangles change their
+/// shape.
 std::vector<Vec3> bent(const std::vector<Vec3>& positions) {
     Vec3 low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f};
     for (const Vec3& p : positions) {
@@ -136,7 +137,7 @@ double degreesBetween(const Vec4& a, const Vec4& b) {
     return std::atan2(std::sqrt(cx * cx + cy * cy + cz * cz), along) * 180 / std::numbers::pi;
 }
 
-/// Returns each number with small changes in its last bits.
+/// Returns the vectors with small random changes in the last bits of each number.
 std::vector<Vec3> nudged(const std::vector<Vec3>& vectors, std::uint32_t seed) {
     std::vector<Vec3> result = vectors;
     for (Vec3& v : result) {
@@ -202,13 +203,13 @@ std::vector<std::uint32_t> plainSettings(bool writes_normals) {
 
 namespace {
 
-/// One mesh, whose poses share a plan.
+/// Evaluates all poses of one mesh with one plan.
 class MeshRun {
   public:
     MeshRun(const PosedMesh& posed, const EvaluateOptions& options, Outcome& outcome)
         : posed_(posed), options_(options), outcome_(outcome) {}
 
-    /// Returns an empty string, or what failed.
+    /// Runs all poses. Returns an empty string, or a description of what failed.
     std::string run(const Evaluate& evaluate, const std::function<void(EvaluateBuffers&)>& spoil) {
         MeshView mesh = posed_.mesh.view();
         const TangentOptions tangents{.method = options_.method,
@@ -235,7 +236,7 @@ class MeshRun {
     }
 
   private:
-    /// Converts the mesh to vertices per corner, with normals computed by the library, as by makeIndexedFrames.
+    /// Computes normals with the library and makes vertices as makeIndexedFrames does, with a vertex for each result.
     std::string makeFrames(MeshView& mesh, const TangentOptions& tangents, IndexedFrames& frames,
                            PlanBufferOptions& buffers) {
         corner_normals_.resize(mesh.cornerCount());
@@ -253,7 +254,7 @@ class MeshRun {
         Result<IndexedFrames> made = makeIndexedFrames(mesh, {.tangents = tangents, .sanitize = false});
         if (!made) return made.error().message;
         frames = std::move(*made);
-        // The vertices of the frames are the mesh of the plan.
+        // The plan is made for a mesh of these vertices.
         test::SimpleMesh split;
         for (std::size_t v = 0; v < frames.vertexCount(); ++v)
             split.addVertex(mesh.positions[frames.source_vertices[v]], frames.normals[v],
@@ -302,8 +303,8 @@ class MeshRun {
                 outcome_.normals.add(tries[0], std::span(tries).subspan(1), withSign(normals[r], 1), placeOf(r));
             }
         }
-        // With the shader's normals: if a tangent is nearly parallel to the normal, the last bits of the normal rotate
-        // it by degrees.
+        // The library gets the shader's normals: if a tangent is nearly parallel to the normal, the last bits of the
+        // normal rotate the tangent by degrees.
         std::vector<std::vector<Vec4>> expected(kTries, std::vector<Vec4>(plan.outputCount()));
         for (std::uint32_t i = 0; i < kTries; ++i) {
             const std::vector<Vec3> p = i == 0 ? positions : nudged(positions, i),
@@ -321,7 +322,7 @@ class MeshRun {
         return {};
     }
 
-    static constexpr std::uint32_t kTries = 4;  ///< the pose, and others that differ in their last bits
+    static constexpr std::uint32_t kTries = 4;  ///< the pose, and poses that differ in their last bits
     static Vec4 withSign(const Vec3& v, float sign) { return {v.x, v.y, v.z, sign}; }
 
     const PosedMesh& posed_;
@@ -341,10 +342,11 @@ Outcome evaluateAll(const std::vector<PosedMesh>& meshes, const EvaluateOptions&
         const bool has_polygons =
             !mesh.mesh.face_sizes.empty() && std::any_of(mesh.mesh.face_sizes.begin(), mesh.mesh.face_sizes.end(),
                                                          [](std::uint32_t size) { return size != 3; });
-        // If a triangle is degenerate, the library uses all others around the point, which the shader does not know.
+        // At a degenerate triangle, the library uses all other triangles around the point, which the shader does not
+        // know.
         const bool has_edges = options.crease_angle_deg < 180 || options.weighting == NormalWeighting::flat;
         if (options.makes_normals && has_edges && mesh.collapses) continue;
-        // Sums of UV derivatives with very different magnitudes are dominated by rounding.
+        // If UV derivatives have very different magnitudes, rounding dominates their sums.
         const bool has_usual_uvs = std::all_of(mesh.mesh.uvs.begin(), mesh.mesh.uvs.end(), [](const Vec2& uv) {
             return std::fabs(uv.x) < 1e6f && std::fabs(uv.y) < 1e6f;
         });

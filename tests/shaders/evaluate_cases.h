@@ -21,10 +21,10 @@ struct EvaluateBuffers {
     std::size_t result_count = 0;
 };
 
-/// Runs the shader; returns an empty string, or what failed.
+/// Runs the shader. Returns an empty string, or a description of what failed.
 using Evaluate = std::function<std::string(EvaluateBuffers&)>;
 
-/// Positions of words in the settings.
+/// Indices of the words of the settings.
 enum Setting : std::size_t {
     position_format,
     position_offset,
@@ -54,17 +54,17 @@ struct PosedMesh {
     test::SimpleMesh mesh;  ///< with normals and UVs
     float angular_threshold_deg = 180;
     std::vector<std::vector<Vec3>> poses;
-    bool collapses = false;  ///< has triangles without area
+    bool collapses = false;  ///< some triangles have no area
 };
 
-/// Returns the mesh in its own pose and in one that changes the shape of all triangles.
+/// Returns the mesh with its own pose and another pose that changes the shape of all triangles.
 PosedMesh withBentPose(std::string name, test::SimpleMesh mesh, float threshold_deg = 180);
-/// Returns regular and degenerate meshes, some with NaN and huge values.
+/// Returns regular and degenerate meshes, some of which contain NaN and huge values.
 std::vector<PosedMesh> generatedMeshes();
-/// Returns the meshes of the shared test data, in their own pose and a bent one; empty if the data is absent.
+/// Returns the meshes of the shared test data with their own pose and a bent one. Returns none if the data is absent.
 std::vector<PosedMesh> sharedMeshes();
 
-/// Differences of many poses. Results that are not finite in the library are ignored.
+/// Differences over many poses. Results that are not finite in the library are ignored.
 struct Differences {
     std::size_t count = 0, wrong_signs = 0, not_finite = 0, not_zero = 0;
     std::size_t unstable =
@@ -75,22 +75,23 @@ struct Differences {
     float worst_deg = 0;
     std::vector<float> degrees;
 
-    /// `nearby`: results of the library for poses with different last bits.
+    /// Adds the difference between a result and the expected one. `nearby`: the library's results for poses with other
+    /// last bits.
     void add(const Vec4& expected, std::span<const Vec4> nearby, const Vec4& found, const std::string& place);
-    /// Returns the difference that the given share of all results does not exceed.
+    /// Returns the difference that this share of all results does not exceed.
     [[nodiscard]] float percentile(double share);
     [[nodiscard]] std::string text();
 };
 
 struct EvaluateOptions {
     Method method = Method::mikktspace;
-    bool makes_normals = false;  ///< with the vertices of makeIndexedFrames; for triangle meshes
+    bool makes_normals = false;  ///< uses the vertices of makeIndexedFrames; only for meshes of triangles
     NormalWeighting weighting = NormalWeighting::angle;
     float crease_angle_deg = 180;
 };
 
-/// Differences of tangents, and of normals if the plan computes them, over all poses. `spoil`: changes the buffers
-/// before they are used.
+/// Differences of tangents over all poses and, if the plan computes normals, of normals. `spoil`: changes the buffers
+/// before the shader uses them.
 struct Outcome {
     Differences tangents, normals;
     std::size_t plan_words = 0, triangles = 0;
@@ -98,7 +99,7 @@ struct Outcome {
 Outcome evaluateAll(const std::vector<PosedMesh>& meshes, const EvaluateOptions& options, const Evaluate& evaluate,
                     const std::function<void(EvaluateBuffers&)>& spoil = {});
 
-/// Returns the settings for contiguous float positions, normals and tangents.
+/// Returns settings for tightly packed positions, normals and tangents, all of them floats.
 std::vector<std::uint32_t> plainSettings(bool writes_normals);
 
 }  // namespace tspace::shaders

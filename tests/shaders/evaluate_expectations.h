@@ -14,9 +14,9 @@ namespace tspace::shaders {
 
 inline constexpr Method kMethods[] = {Method::mikktspace, Method::uniform, Method::angle,
                                       Method::area,       Method::lengyel, Method::fast};
-inline constexpr float kMostUsual = 0.0005f,
-                       // degrees: for 9,999 of 10,000 results (999 of 1,000 if there are few), and for all
-    kMost = 0.01f;
+/// Maximum differences in degrees. kMostUsual: for 9,999 of 10,000 results (999 of 1,000 if there are few). kMost: for
+/// all results.
+inline constexpr float kMostUsual = 0.0005f, kMost = 0.01f;
 
 inline void expectNear(Differences found, const std::string& what) {
     std::cout << what << ": " << found.text() << '\n';

@@ -13,7 +13,7 @@ namespace tspace::shaders {
 
 namespace {
 
-/// Returns the positions of the rest pose with the weights and bones of `pose`.
+/// Returns the positions of the primitive, deformed by the weights and bones of `pose`.
 std::vector<Vec3> deformed(const ScenePrimitive& primitive, const ScenePose& pose) {
     std::vector<Vec3> result(primitive.positions.begin(), primitive.positions.end());
     for (std::size_t v = 0; v < result.size(); ++v) {
@@ -23,7 +23,7 @@ std::vector<Vec3> deformed(const ScenePrimitive& primitive, const ScenePose& pos
     return result;
 }
 
-/// Returns a triangle mesh with normals and UVs; without vertices if the primitive lacks one of these.
+/// Returns the primitive as a triangle mesh with normals and UVs, or a mesh without vertices if it lacks one of these.
 test::SimpleMesh meshOf(const ScenePrimitive& primitive) {
     test::SimpleMesh mesh;
     const std::size_t set = primitive.uses.empty() ? 0 : primitive.uses[0].uv_set;

@@ -9,12 +9,12 @@
 
 namespace tspace::shaders {
 
-/// Returns the paths of the glTF files of the shared test data; empty if the data is absent.
+/// Returns the paths of the glTF files of the shared test data. Returns none if the data is absent.
 std::vector<std::string> sharedModels();
 
-/// Returns the primitives of a model that have normals and UVs, each in its rest pose, a bent one, one per morph target,
-/// and those of its skins. Primitives with more triangles than the environment variable TSPACE_MODEL_TRIANGLES (default
-/// 1,000) are left out. Throws FileError.
+/// Returns the primitives of a model that have normals and UVs. Each has its rest pose, a bent pose, one pose per morph
+/// target, and those of its skins. Primitives are skipped if they have more triangles than the environment variable
+/// TSPACE_MODEL_TRIANGLES (default: 1,000). Throws FileError.
 std::vector<PosedMesh> meshesOfModel(const std::string& path);
 
 }  // namespace tspace::shaders

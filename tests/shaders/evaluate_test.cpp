@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares the buffers of a plan with evaluateTangents and generateNormals: shaders/tspace_evaluate.metal, compiled as
-// C++ (metal_shim), is a simple loop over them.
+// Compares the results of a plan's buffers with those of evaluateTangents and generateNormals.
+// shaders/tspace_evaluate.metal is compiled as C++ (metal_shim) and called in a simple loop.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -45,7 +45,7 @@ TEST(PlanBuffers, GiveTheTangentsOfSharedMeshes) {
     if (meshes.empty()) GTEST_SKIP() << "the shared test data are missing";
     for (const Method method : {Method::mikktspace, Method::uniform, Method::angle, Method::area})
         expectNear(evaluateAll(meshes, {.method = method}, evaluateByLoop).tangents, methodName(method));
-    // These meshes have nearly collinear UVs and needles, whose derivatives and weights are dominated by rounding.
+    // These meshes have nearly collinear UVs and needle-like triangles, so rounding dominates derivatives and weights.
     for (const Method method : {Method::lengyel, Method::fast}) {
         Differences found = evaluateAll(meshes, {.method = method}, evaluateByLoop).tangents;
         std::cout << methodName(method) << ": " << found.text() << ", p99 " << found.percentile(0.99) << '\n';
@@ -56,7 +56,7 @@ TEST(PlanBuffers, GiveTheTangentsOfSharedMeshes) {
     }
 }
 
-/// A grid whose normals are computed, and its buffers in the plan's own pose.
+/// A grid with computed normals, and the shader's input buffers with the positions that the plan was made from.
 struct Grid {
     PosedMesh posed = generatedMeshes()[0];
     PlanBuffers plan;
@@ -137,7 +137,7 @@ TEST(PlanBuffers, MorphAndSkinPositions) {
     Grid deformed, plain;
     const std::vector<Vec3>& positions = plain.posed.mesh.positions;
     const std::size_t count = positions.size();
-    // One target of weight 0.5; two joints, the second of which rotates about x and moves.
+    // One morph target with weight 0.5, and two joints, the second of which rotates about x and moves.
     const float matrices[2][12] = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0},
                                    {1, 0, 0, 2, 0, 0.6f, -0.8f, 1, 0, 0.8f, 0.6f, 0}};
     std::vector<std::uint32_t> deform{std::bit_cast<std::uint32_t>(0.5f)}, moved;
@@ -202,12 +202,13 @@ TEST(PlanBuffers, WriteBytesOfBothVectors) {
     }
 }
 
-/// Returns the larger of the angles between two normals and between two tangents.
+/// Returns the larger of two angles in degrees: between the normals, and between the tangents.
 float frameErrorDeg(const Vec3& n, const Vec4& t, const Vec3& to_n, const Vec4& to_t) {
     return std::max(test::angleDeg(n, to_n), test::angleDeg({t.x, t.y, t.z}, {to_t.x, to_t.y, to_t.z}));
 }
 
-/// Words of a format against packFrames: within the bounds of the format, and nearly all of them equal.
+/// Compares packed words with those of packFrames: errors are within the bounds of the format, and nearly all words are
+/// equal.
 void expectWords(FrameFormat format, std::span<const Vec3> n, std::span<const Vec4> t,
                  std::span<const std::uint32_t> found) {
     std::vector<std::uint32_t> expected(n.size());
@@ -231,10 +232,10 @@ void expectWords(FrameFormat format, std::span<const Vec3> n, std::span<const Ve
                     0.0002);
     }
     std::cout << others << " of " << n.size() << " words differ\n";
-    EXPECT_LE(others, n.size() / 1000);  // where two points of the grid are equally near, rounding decides
+    EXPECT_LE(others, n.size() / 1000);  // if two points of the lattice are equally near, rounding decides
 }
 
-/// The formats of one word, and their numbers in the settings.
+/// The formats that consist of one word, and their numbers in the settings.
 constexpr struct {
     FrameFormat format;
     std::uint32_t number;
@@ -275,7 +276,8 @@ TEST(PlanBuffers, PackFramesOfAnyDirection) {
         for (std::size_t r = 0; r < frames.size(); ++r)
             found.push_back(pack(format, frames.normals[r], frames.tangents[r]));
         expectWords(format, frames.normals, frames.tangents, found);
-        // Frames without directions, or with one only, get the missing ones: the normal (0, 0, 1), a tangent across it.
+        // Frames without a normal or a tangent are completed: a missing normal is (0, 0, 1), and a missing tangent is
+        // perpendicular to the normal.
         for (const float z : {0.0f, 1.0f, -1.0f}) {
             const std::uint32_t word = pack(format, {0, 0, z}, {});
             Vec3 normal;

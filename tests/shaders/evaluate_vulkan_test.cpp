@@ -34,7 +34,7 @@ TEST_P(EvaluateLanguage, GivesTheFramesOfTheLibrary) {
     expectTangents(generatedMeshes(), evaluateOn(*vulkan, spirv));
     expectFrames(generatedMeshes(), evaluateOn(*vulkan, spirv));
 
-    // The same bits in each run.
+    // Two runs must give the same bits.
     const Evaluate once = evaluateOn(*vulkan, spirv);
     const Evaluate twice = [&](EvaluateBuffers& in) {
         EvaluateBuffers again = in;
@@ -48,7 +48,7 @@ TEST_P(EvaluateLanguage, GivesTheFramesOfTheLibrary) {
 INSTANTIATE_TEST_SUITE_P(Spirv, EvaluateLanguage, testing::Values(TSPACE_EVALUATE_NAMES),
                          [](const auto& language) { return std::string(language.param); });
 
-/// Returns the GLSL shader with a part replaced; empty if it does not compile.
+/// Returns the compiled GLSL shader with `from` replaced by `to`. Returns no words if it does not compile.
 std::vector<std::uint32_t> mutant(const std::string& from, const std::string& to) {
     std::ifstream file(TSPACE_SHADER_FOLDER "/tspace_evaluate.glsl");
     std::stringstream all;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Metal code compiled as C++ with the types of metal_shim: the hand-written shaders, and the output of spirv-cross for
-// the other languages.
+// Metal code that is compiled as C++ with the types of metal_shim: the hand-written shaders, and the output of
+// spirv-cross for the other languages.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -40,7 +40,8 @@ void runByHand(const Case& c, std::vector<float>& results) {
     }
 }
 
-/// The kernel's structs contain an array with one element, as spirv-cross writes runtime-sized arrays.
+/// Runs a kernel on all items. Its structs contain an array of one element, which is how spirv-cross writes arrays of
+/// unknown size.
 template <class Words, class Results>
 void runKernel(void (*run)(const Words&, Results&, uint3), const Case& c, std::vector<float>& results) {
     for (uint i = 0; i < c.count(); ++i) {
@@ -48,7 +49,7 @@ void runKernel(void (*run)(const Words&, Results&, uint3), const Case& c, std::v
     }
 }
 
-/// Runs all cases; TSPACE_FRAMES overrides the number of frames.
+/// Checks the results of all cases. The environment variable TSPACE_FRAMES overrides the number of frames.
 void expectRight(void (*run)(const Case&, std::vector<float>&), long default_frames) {
     const auto frames = static_cast<std::size_t>(test::frameCount(default_frames));
     for (std::uint32_t number = 0; number < caseCount(); ++number) {

@@ -97,7 +97,7 @@ class Counter {
                 choices_[in[1]] = true;
                 return;
             case kStore:
-                // The value on one side of ?:; both sides belong to the same selection.
+                // A store on one side of ?: is counted, but only once, because both sides belong to the same selection.
                 if (is_in_choice_) functions_[current_].own.operations += sizeOf(in[1]);
                 is_in_choice_ = false;
                 return;
@@ -105,7 +105,7 @@ class Counter {
                 break;
         }
         if (in.size() < 2) return;
-        types_[in[1]] = in[0];  // true for most instructions with a result
+        types_[in[1]] = in[0];  // correct for most instructions that have a result
         if (current_ != 0) count(op, in, functions_[current_].own);
     }
 
@@ -146,7 +146,7 @@ class Counter {
                 return;
             default:
                 to.operations += size;
-                return;  // absolute values, minima and maxima
+                return;  // such as absolute value, minimum and maximum
         }
     }
 
@@ -160,7 +160,7 @@ class Counter {
     [[nodiscard]] OperationCount total(std::uint32_t id) const {
         const Function& function = functions_.at(id);
         OperationCount sum = function.own;
-        for (const std::uint32_t called : function.calls) {  // shaders have no recursion
+        for (const std::uint32_t called : function.calls) {  // ends, because shaders have no recursion
             const OperationCount more = total(called);
             sum.operations += more.operations;
             sum.roots += more.roots;
@@ -171,7 +171,7 @@ class Counter {
     }
 
     std::map<std::uint32_t, std::string> names_;
-    std::map<std::uint32_t, std::uint32_t> components_, types_;  // components of types; types of values
+    std::map<std::uint32_t, std::uint32_t> components_, types_;  // components of each type, and type of each value
     std::map<std::uint32_t, Function> functions_;
     std::map<std::uint32_t, bool> choices_;
     std::uint32_t current_ = 0;

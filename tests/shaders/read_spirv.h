@@ -9,7 +9,7 @@
 
 namespace tspace::shaders {
 
-/// Reads a SPIR-V file; returns an empty vector if it does not exist.
+/// Reads a SPIR-V file. Returns no words if it does not exist.
 inline std::vector<std::uint32_t> readSpirv(const std::string& name) {
     std::ifstream file(TSPACE_SPIRV_DIR "/" + name + ".spv", std::ios::binary);
     std::vector<std::uint32_t> words;

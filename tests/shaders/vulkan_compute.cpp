@@ -12,7 +12,7 @@ namespace tspace::shaders {
 
 namespace {
 
-/// Calls destroy functions in reverse order in its destructor.
+/// Owns Vulkan objects: its destructor calls their destroy functions in reverse order.
 class Owned {
   public:
     ~Owned() {
@@ -139,7 +139,7 @@ class Device final : public VulkanCompute {
         vkGetDeviceQueue(device_, family_, 0, &queue_);
     }
 
-    /// Returns a memory type that the host can access coherently.
+    /// Returns the index of a memory type that is coherent for the host.
     std::uint32_t memoryKind(std::uint32_t allowed) const {
         constexpr VkMemoryPropertyFlags kWanted =
             VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
@@ -256,7 +256,7 @@ class Device final : public VulkanCompute {
         return pipeline;
     }
 
-    /// A shader with its layouts.
+    /// A shader and its layouts.
     struct Program {
         Owned owned;
         std::vector<std::uint32_t> spirv;
@@ -265,7 +265,8 @@ class Device final : public VulkanCompute {
         VkPipeline pipeline = VK_NULL_HANDLE;
     };
 
-    /// Keeps the last program, because software devices take seconds to compile a shader.
+    /// Returns the program of a shader. The last one is kept, because software devices take seconds to compile a
+    /// shader.
     const Program& programOf(std::span<const std::uint32_t> spirv, const char* entry, std::size_t buffer_count) {
         if (program_ != nullptr &&
             std::equal(spirv.begin(), spirv.end(), program_->spirv.begin(), program_->spirv.end()))
@@ -319,7 +320,7 @@ class Device final : public VulkanCompute {
     }
 
     Owned owned_;
-    std::unique_ptr<Program> program_;  ///< destroyed before the device
+    std::unique_ptr<Program> program_;  ///< must be destroyed before the device
     VkInstance instance_ = VK_NULL_HANDLE;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;

@@ -13,14 +13,14 @@ namespace tspace::shaders {
 
 namespace {
 
-/// Returns the number of frames per format, fewer for generated code; TSPACE_FRAMES overrides it. The other functions
-/// get a tenth of that.
+/// Returns the number of frames per format. It is smaller for generated code. The environment variable TSPACE_FRAMES
+/// overrides it. Functions other than decoders get a tenth of it.
 std::size_t framesFor(const std::string& language) {
     const bool is_as_written = language.find("_as_") == std::string::npos;
     return static_cast<std::size_t>(test::frameCount(is_as_written ? 1'000'000 : 100'000));
 }
 
-/// The source language of the SPIR-V, and its conversions.
+/// Name of the language from which the SPIR-V was compiled, and of the languages to which it was converted.
 class ShaderLanguage : public testing::TestWithParam<const char*> {};
 
 TEST_P(ShaderLanguage, GivesTheFramesOfTheLibrary) {

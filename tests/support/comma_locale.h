@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Switches the program to a locale that writes 0,5: German, generated for the test if the machine has none.
+// Switches the program to a locale with a decimal comma (German). If the machine has none, it is generated for the
+// test.
 #pragma once
 
 #include <clocale>

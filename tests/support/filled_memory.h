@@ -9,7 +9,7 @@
 
 namespace tspace::test {
 
-/// Allocates memory in which every byte is `byte`.
+/// Allocator whose memory initially contains `byte` in every byte.
 class FilledMemory {
   public:
     explicit FilledMemory(unsigned char byte) : byte_(byte) {}
@@ -32,7 +32,7 @@ class FilledMemory {
                             this};
 };
 
-/// Interpreted as floats: 0, a small number, and NaN.
+/// Bytes with which memory is filled. As floats they are 0, a small number, and NaN.
 inline constexpr unsigned char kFillings[] = {0x00, 0x3c, 0xff};
 
 }  // namespace tspace::test

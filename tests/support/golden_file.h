@@ -15,13 +15,14 @@
 
 namespace tspace::test {
 
-/// Returns whether `mikktspace` promises the reference's bits for a value: docs/concepts/methods/mikktspace.md excludes
-/// meshes with values that are not finite or at least 1.6e38. All tests use this function.
+/// Returns whether `mikktspace` promises the reference's bits for a mesh with this value.
+/// docs/concepts/methods/mikktspace.md excludes values that are not finite, and absolute values of at least 1.6e38. All
+/// tests use this function.
 inline bool hasPromisedBits(float value) { return std::fabs(value) < 1.6e38f; }
 
 struct GoldenFile {
     static constexpr std::size_t kInputWords = 8;    ///< per corner: position, normal, UV
-    static constexpr std::size_t kResultWords = 10;  ///< tangent, bitangent, magnitudes, orientation, sign
+    static constexpr std::size_t kResultWords = 10;  ///< per corner: tangent, bitangent, magnitudes, orientation, sign
 
     float angular_threshold_deg = 180;
     std::uint32_t returned = 0;             ///< return value of the reference's function

@@ -8,7 +8,7 @@
 
 namespace tspace::test {
 
-/// Returns a square of side * side quads with hills of this height, and UVs. `use`: lines before the faces.
+/// Returns a square of side * side quads with UVs and with hills of this height. `use`: lines before the faces.
 inline std::string gridObj(int side, double height, const std::string& use = {}) {
     std::ostringstream text;
     for (int y = 0; y <= side; ++y) {

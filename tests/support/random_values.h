@@ -13,7 +13,8 @@
 
 namespace tspace::test {
 
-/// Returns an integer in [low, high), uniformly distributed from the first test case on (RapidCheck starts near `low`).
+/// Returns an integer in [low, high). It is uniformly distributed in all test cases, whereas RapidCheck's own generator
+/// starts near `low`.
 inline int randomInt(int low, int high) { return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high)); }
 
 /// Returns a float in [low, high] with 16 bits of resolution.
@@ -39,7 +40,7 @@ inline Vec3 randomUnit() {
     return {static_cast<float>(v.x / l), static_cast<float>(v.y / l), static_cast<float>(v.z / l)};
 }
 
-/// Returns any kind of float: NaN, infinities, zeros, subnormals, huge values, and ordinary ones.
+/// Returns a float of any kind: NaN, infinity, zero, a subnormal, a huge value, or an ordinary one.
 inline float randomGarbage() {
     switch (randomInt(0, 8)) {
         case 0:

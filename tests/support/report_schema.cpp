@@ -24,13 +24,13 @@ Json readSchema(const std::string& name) {
     return Json::parse(file);
 }
 
-/// Returns the schema docs/schema/NAME; its references are files in the same folder.
+/// Returns the schema in the file docs/schema/NAME. Its references are files in the same folder.
 const valijson::Schema& schemaOf(const std::string& name) {
     static std::map<std::string, std::unique_ptr<valijson::Schema>> schemas;
     std::unique_ptr<valijson::Schema>& schema = schemas[name];
     if (schema == nullptr) {
         schema = std::make_unique<valijson::Schema>();
-        // Our schemas use nothing that differs between draft 7 and 2020-12.
+        // The schemas use no feature that differs between draft 7 and draft 2020-12.
         valijson::SchemaParser parser(valijson::SchemaParser::kDraft7);
         const Json json = readSchema(name);
         parser.populateSchema(

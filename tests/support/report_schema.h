@@ -6,8 +6,8 @@
 
 namespace tspace::test {
 
-/// Returns the faults of a document that names a tspace schema, one per line; empty if it is valid, or names no such
-/// schema.
+/// Returns the faults of a document that names one of tspace's schemas, one per line. Returns an empty string if it is
+/// valid or names no such schema.
 std::string reportFaults(const std::string& document);
 
 }  // namespace tspace::test

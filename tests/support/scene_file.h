@@ -15,7 +15,7 @@
 
 namespace tspace::test {
 
-/// One primitive as arrays.
+/// Arrays of one primitive.
 struct ModelData {
     std::string name = {};
     std::vector<Vec3> positions = {};
@@ -51,7 +51,7 @@ inline ModelData bentSheet(int n) {
     return data;
 }
 
-/// Gives every corner a separate vertex.
+/// Returns the data with a vertex of its own for each corner.
 inline ModelData unwelded(const ModelData& data) {
     ModelData result{.name = data.name};
     for (const std::uint32_t vertex : data.indices) {
@@ -79,8 +79,8 @@ inline std::vector<Vec4> tangentsOf(const ModelData& data, Method method) {
     return tangentsOf(data, TangentOptions{.method = method, .convention = conventions::opengl});
 }
 
-/// Unwelds vertices (except for `lengyel`, which averages by vertex index), and sets the tangents of a method;
-/// `sign_factor` -1 is that of glTF.
+/// Returns the data with the tangents of a method, and with unwelded vertices (except for `lengyel`, which averages by
+/// vertex index). `sign_factor`: factor of the signs; -1 gives those of glTF.
 inline ModelData withTangents(const ModelData& data, const TangentOptions& options, float sign_factor = -1) {
     ModelData result = options.method == Method::lengyel ? data : unwelded(data);
     const std::vector<Vec4> corners = tangentsOf(result, options);
@@ -99,7 +99,7 @@ std::vector<float> floatsOf(const std::vector<Vec>& values) {
     return {first, first + values.size() * (sizeof(Vec) / sizeof(float))};
 }
 
-/// Writes one mesh per entry. Returns the path.
+/// Writes a model with one mesh per entry. Returns its path.
 inline std::string writeModel(const TempFolder& folder, const std::string& name, const std::vector<ModelData>& models) {
     GltfBuilder builder;
     Json meshes = Json::array();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The mesh of all core tests, which owns its arrays; and cubes.
+// A mesh that owns its arrays, for all tests of the core; and cubes.
 #pragma once
 
 #include <array>
@@ -46,7 +46,8 @@ struct SimpleMesh {
     }
 };
 
-/// The cube [-1, 1]^3: bits 0, 1, 2 of vertex index i determine its x, y, z. Counter-clockwise from outside.
+/// The faces of the cube [-1, 1]^3, counter-clockwise seen from outside. Bits 0, 1 and 2 of a vertex index select x, y
+/// and z.
 inline constexpr std::array<std::array<std::uint32_t, 4>, 6> kCubeFaces{
     {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
 inline constexpr std::array<Vec3, 6> kCubeNormals{
@@ -60,7 +61,7 @@ inline std::vector<Vec3> cubePositions() {
     return positions;
 }
 
-/// Six quads.
+/// Returns the cube as six quads.
 inline SimpleMesh quadCube() {
     SimpleMesh cube;
     cube.positions = cubePositions();
@@ -68,7 +69,7 @@ inline SimpleMesh quadCube() {
     return cube;
 }
 
-/// Returns twelve triangles; bit f of `diagonals` selects the diagonal of face f.
+/// Returns the cube as twelve triangles. Bit f of `diagonals` selects the diagonal of face f.
 inline SimpleMesh triangleCube(unsigned diagonals) {
     SimpleMesh cube;
     cube.positions = cubePositions();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A temporary folder for one test, removed afterwards.
+// A temporary folder for one test, which is removed at the end.
 #pragma once
 
 #include <stdlib.h>
@@ -30,7 +30,7 @@ class TempFolder {
     TempFolder(const TempFolder&) = delete;
     TempFolder& operator=(const TempFolder&) = delete;
 
-    /// Returns the folder, or a path in it.
+    /// Returns the path of the folder, or of an entry in it.
     [[nodiscard]] std::filesystem::path path(const std::string& relative = {}) const {
         return relative.empty() ? path_ : path_ / relative;
     }
@@ -52,7 +52,7 @@ class TempFolder {
     }
     [[nodiscard]] bool has(const std::string& relative) const { return std::filesystem::exists(path_ / relative); }
 
-    /// Returns the relative paths of all files below `relative`.
+    /// Returns the relative paths of all files below a subfolder.
     [[nodiscard]] std::set<std::string> files(const std::string& relative = ".") const {
         std::set<std::string> names;
         const std::filesystem::path folder = path_ / relative;
@@ -63,7 +63,7 @@ class TempFolder {
         return names;
     }
 
-    /// Returns the number of files and folders below this one.
+    /// Returns the number of files and folders below the folder.
     [[nodiscard]] std::size_t entryCount() const {
         const auto entries = std::filesystem::recursive_directory_iterator(path_);
         return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Threads for meshes so small that the library would start none: with an executor, work of any size is divided.
+// Executors for tests of threads with meshes so small that the library would start none. With an executor, work of any
+// size is divided.
 #pragma once
 
 #include <atomic>
@@ -11,7 +12,7 @@
 
 namespace tspace::test {
 
-/// Returns an executor that runs each loop on this number of threads. Lives until the program ends.
+/// Returns an executor that runs each loop on this number of threads. The executor lives until the program ends.
 inline const Executor* threadTeam(unsigned threads) {
     static std::map<unsigned, Executor> teams;
     Executor& team = teams[threads];

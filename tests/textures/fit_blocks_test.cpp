@@ -26,7 +26,7 @@ class Noise {
     std::uint32_t state_;
 };
 
-/// Returns hills, and grooves of a few texels.
+/// Returns the normals of hills with grooves that are a few texels wide.
 NormalLevel reliefLevel(std::uint32_t width, std::uint32_t height, double steep = 1) {
     NormalLevel level{width, height, {}, {}};
     for (std::uint32_t y = 0; y < height; ++y) {
@@ -41,7 +41,7 @@ NormalLevel reliefLevel(std::uint32_t width, std::uint32_t height, double steep 
     return level;
 }
 
-/// Returns facets of 16 texels tilted by up to 40 degrees, with edges of one texel.
+/// Returns facets of 16 x 16 texels, tilted by up to about 40 degrees, with edges one texel wide.
 NormalLevel facetLevel(std::uint32_t size) {
     NormalLevel level{size, size, {}, {}};
     Noise noise(3);
@@ -75,7 +75,7 @@ double meanError(const NormalLevel& level, const BlockOptions& options) {
     return measureFiltered(level, withoutZ(fitted.texels), true, oneThread()).mean_deg;
 }
 
-/// Decodes x and y of all texels with the decoder that reads files.
+/// Returns x and y of all texels, decoded by the decoder that reads files.
 std::vector<Vec2> decodedTexels(const FittedLevel& fitted, const NormalLevel& level, const BlockOptions& options) {
     const bool is_bc5 = options.format == BlockFormat::bc5;
     const TexelFormat format = texelFormat(is_bc5 ? (options.is_signed ? TexelKind::bc5s : TexelKind::bc5)
@@ -132,8 +132,8 @@ TEST(FitBlocks, EveryQualityIsBetterThanTheOneBelow) {
     }
 }
 
-/// Returns, for each block and channel, the least sum of squares over all pairs of ends and both palette types, from
-/// the original values.
+/// Returns texels with the least sum of squares per block and channel, over all pairs of end points and both palette
+/// types, compared with the unquantized values.
 std::vector<Vec3> leastSquares(const NormalLevel& level) {
     std::vector<Vec3> texels(level.normals.size());
     for (std::size_t i = 0; i < level.normals.size() / 16 * 2; ++i) {
@@ -191,14 +191,15 @@ TEST(FitBlocks, SpreadsLittleErrorFromHardEdges) {
     };
     const FilteredError squares = errorOf(leastSquares(level));
     const FilteredError fast = errorOf(withoutZ(fitBlocks(level, {}, oneThread()).texels));
-    // An edge at every sixteenth texel: flat areas lose slightly, edges gain more.
+    // There is an edge at every sixteenth texel. Flat areas lose a little accuracy, and edges gain more.
     EXPECT_LT(fast.mean_deg, 1.06 * squares.mean_deg);
     EXPECT_LT(fast.p99_deg, squares.p99_deg);
 }
 
 TEST(FitBlocks, RepresentsFlatMapsWithinAQuantizationStep) {
     NormalLevel flat{16, 16, std::vector<Vec3>(256, Vec3{0, 0, 1}), {}};
-    // Half of 255 steps is not represented exactly; signed formats represent 0.
+    // In unsigned formats, 0 would be stored as 127.5 of 255, which is not an integer. Signed formats represent 0
+    // exactly.
     EXPECT_LT(meanError(flat, {}), 0.045);
     EXPECT_EQ(meanError(flat, {.is_signed = true}), 0);
     EXPECT_EQ(meanError(flat, {.format = BlockFormat::eacRg11, .is_signed = true}), 0);

@@ -24,8 +24,7 @@ NormalLevel noiseLevel(std::uint32_t width, std::uint32_t height) {
     return level;
 }
 
-/// Returns the mean of part(normal) over a texel of a level of this size, as a weighted sum over texels of the first
-/// level.
+/// Returns the mean of part(normal) over a texel of a mip level: a weighted sum over the texels of the first level.
 template <class Part>
 auto meanOver(const NormalLevel& first, const NormalLevel& level, std::uint32_t x, std::uint32_t y, const Part& part) {
     decltype(part(DVec3{})) sum{};
@@ -88,7 +87,7 @@ TEST(NormalLevels, StoreTheSpreadOfTheirNormals) {
     }
 }
 
-/// Texels have a coverage of a quarter or 0; those with 0 contain an unrelated direction, which must not affect the
+/// Texels have a coverage of 0, a quarter or 1. Those with 0 contain an unrelated direction, which must not affect the
 /// means.
 TEST(NormalLevels, AreMeansOfCoveredTexels) {
     NormalLevel first = noiseLevel(13, 8);
@@ -113,7 +112,7 @@ TEST(NormalLevels, AreMeansOfCoveredTexels) {
     // Uncovered texels get the direction of the next level.
     EXPECT_EQ(levels[0].normals[0], levels[1].normals[0]);
     EXPECT_EQ(levels[0].normals[5], first.normals[5]);
-    // Full coverage: same result as without coverage.
+    // With full coverage, the result is the same as without coverage.
     first.coverage.assign(first.normals.size(), 1.0F);
     const auto all = makeNormalLevels(first, parallel);
     first.coverage.clear();

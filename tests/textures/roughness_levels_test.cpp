@@ -8,7 +8,7 @@
 namespace tspace {
 namespace {
 
-/// Returns rows tilted alternately left and right, by `slope`.
+/// Returns rows of texels that are tilted left and right in alternation, by `slope`.
 NormalLevel corrugated(std::uint32_t width, std::uint32_t height, double slope) {
     NormalLevel level{width, height, {}, {}};
     for (std::uint32_t i = 0; i < width * height; ++i) {

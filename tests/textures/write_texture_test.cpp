@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writing of texture files from levels.
+// Writing texture files from mip levels.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs each command that check prints as a remedy, like a user: its finding must disappear, and no new one may appear.
+// Runs each command that check prints as a remedy, as a user would. Its finding must disappear, and no new finding may
+// appear.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,12 +20,12 @@ namespace tspace::test {
 namespace {
 
 using Json = nlohmann::json;
-using Places = std::set<std::pair<std::string, std::string>>;  // code, place
+using Places = std::set<std::pair<std::string, std::string>>;  // (code, place) of findings
 
 std::string inQuotes(const std::string& path) { return "'" + path + "'"; }
 
-/// Returns the findings of a file; an empty list if it cannot be read. Every remedy must also be contained in the text
-/// output.
+/// Returns the findings of a file, or an empty list if it cannot be read. Checks that the text output contains every
+/// remedy.
 Json findingsOf(const TempFolder& folder, const std::string& file) {
     const ToolRun run = runTool(folder, "check --json --fail-on error " + inQuotes(file));
     const Json report = Json::parse(run.out, nullptr, false);
@@ -35,7 +36,7 @@ Json findingsOf(const TempFolder& folder, const std::string& file) {
     return report["files"][0]["findings"];
 }
 
-/// A command of a remedy, without "tspace".
+/// A command that a remedy names, without the word "tspace".
 struct NamedCommand {
     std::string line;
     /// contains a placeholder for something that the file does not contain, such as the high poly
@@ -44,7 +45,7 @@ struct NamedCommand {
     bool operator<(const NamedCommand& other) const { return line < other.line; }
 };
 
-/// Returns the commands of a finding; every command line in its remedy must be one of them.
+/// Returns the commands of a finding. Checks that every command line in its remedy is one of them.
 std::vector<NamedCommand> commandsOf(const Json& finding) {
     const std::string start = "tspace ", remedy = finding["remedy"];
     std::vector<NamedCommand> commands;
@@ -63,8 +64,8 @@ std::vector<NamedCommand> commandsOf(const Json& finding) {
     return commands;
 }
 
-/// Removes notes on possible intentions, which are hidden by worse findings at the same place: normals that point to
-/// the back of their triangles are not compared with them.
+/// Returns the findings without notes that need no action. Worse findings at the same place hide such notes: for
+/// example, normals that point to the back of their triangles are not compared with them.
 Json withoutHarmless(const Json& findings) {
     Json rest = Json::array();
     for (const Json& finding : findings) {
@@ -97,14 +98,15 @@ class Advice : public testing::TestWithParam<std::string> {
         output_ = "out/o" + (is_gltf_ ? extension : ".glb");
     }
 
-    /// Runs a command that writes a model.
+    /// Runs a command that writes a model. Returns whether it succeeded.
     bool runOnModel(const std::string& command) {
         const ToolRun run = runTool(folder_, command + " " + inQuotes(input_) + " -o " + inQuotes(output_));
         EXPECT_EQ(run.exit_code, 0) << command << ": " << run.err;
         return run.exit_code == 0;
     }
 
-    /// Runs a command on each image that these findings are about, and stores the new images in a copy of the model.
+    /// Runs a command on each image that the findings are about, and stores the new images in a copy of the model.
+    /// Returns whether it succeeded.
     bool runOnImages(const std::string& command, const Json& findings) {
         ModelImages model(input_);
         model.copyFiles(folder_.path("out"));
@@ -138,7 +140,7 @@ class Advice : public testing::TestWithParam<std::string> {
 
 TEST_P(Advice, FixesItsFindingAndCausesNoNewOne) {
     const Json before = findingsOf(folder_, input_);
-    std::map<NamedCommand, Json> commands;  // and their findings
+    std::map<NamedCommand, Json> commands;  // each command, with the findings that name it
     for (const Json& finding : before) {
         for (const NamedCommand& command : commandsOf(finding)) commands[command].push_back(finding);
     }
@@ -147,10 +149,10 @@ TEST_P(Advice, FixesItsFindingAndCausesNoNewOne) {
         const std::string& command = named.line;
         std::filesystem::create_directories(folder_.path("out"));
         const bool is_of_model = command.rfind("generate", 0) == 0;
-        // Materials of other formats refer to images differently.
+        // In other formats, materials refer to images in other ways.
         if (!is_of_model && !is_gltf_) continue;
         if (is_of_model ? !runOnModel(command) : !runOnImages(command, findings)) continue;
-        // Other formats become glTF, in which places have different names.
+        // Models of other formats become glTF, in which places have other names.
         const Json after = findingsOf(folder_, output_);
         Places old = placesOf(before, is_gltf_);
         const Places now = placesOf(after, is_gltf_);

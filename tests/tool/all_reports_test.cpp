@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Returns a report; runTool validates it against its schema.
+/// Returns the report of a run. runTool validates it against its schema.
 Json reportOf(const TempFolder& folder, const std::string& arguments) {
     const ToolRun run = runTool(folder, arguments + " --json");
     const Json document = Json::parse(run.out, nullptr, false);
@@ -77,7 +77,7 @@ TEST(AllReports, OfGenerate) {
         EXPECT_TRUE(document["dryRun"].get<bool>());
         EXPECT_GT(document["files"].size(), 400U);
     }
-    // Converting all maps of all models takes minutes.
+    // Only a part of the models: converting the maps of all models takes minutes.
     reportOf(TempFolder(),
              "generate '" + shared("reports").string() + "' -o out --dry-run --overwrite --method flat --convert-maps");
 }
@@ -87,7 +87,7 @@ TEST(AllReports, OfDiff) {
     const TempFolder folder;
     const std::vector<std::string> files = sharedFiles({".glb", ".gltf", ".obj"});
     ASSERT_GT(files.size(), 400U);
-    // Compares every eighth file with the next one (usually a different shape), and with itself.
+    // Compare every eighth file with the next one, which usually has another shape, and with itself.
     for (std::size_t i = 0; i + 1 < files.size(); i += 8) {
         reportOf(folder, "diff " + files[i] + ' ' + files[i + 1]);
         reportOf(folder, "diff " + files[i] + ' ' + files[i]);

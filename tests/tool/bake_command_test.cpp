@@ -19,7 +19,7 @@ TEST_F(BakeCommand, WritesAMapThatShowsTheHighPoly) {
     const FloatImage map = imageOf(folder, "out/normal.png");
     ASSERT_EQ(map.width, 64U);
     EXPECT_EQ(map.bits, 16U);
-    // The slope of the bumps at the center of a texel, with v pointing down.
+    // Slope of the bumps at the center of a texel. y points up, against v.
     const double x = 20.5 / 64, y = 1 - 40.5 / 64;
     const double slope_x = 0.02 * 12 * std::cos(12 * x) * std::sin(9 * y),
                  slope_y = 0.02 * 9 * std::sin(12 * x) * std::cos(9 * y);
@@ -36,7 +36,8 @@ TEST_F(BakeCommand, WritesAMapThatShowsTheHighPoly) {
     EXPECT_EQ(imageOf(folder, "heat.png").width, 64U);
 }
 
-/// Returns a flat sheet whose vertices have random heights, uniformly up to a fifth of a cell.
+/// Returns a flat sheet whose vertices have random heights, uniformly distributed up to a fifth of a cell above and
+/// below.
 std::string noisySheet(int cells) {
     std::uint32_t state = 1;
     std::string text;
@@ -50,7 +51,7 @@ std::string noisySheet(int cells) {
     return text + flat.substr(flat.find("s 1\n"));
 }
 
-/// Returns the mean square of the deviation of texels from flat, for a map of a flat surface.
+/// Returns the mean square of x and y over the texels of a map. For a map of a flat surface this is its noise.
 double leanOf(const FloatImage& map) {
     double sum = 0;
     for (const Vec3& texel : map.texels) {
@@ -109,7 +110,7 @@ TEST_F(BakeCommand, DirectxInvertsGreen) {
     for (std::size_t i = 0; i < gl.texels.size(); ++i) EXPECT_NEAR(gl.texels[i].y, 1 - dx.texels[i].y, 2e-5F);
 }
 
-/// Returns the OBJ text with all vertices moved.
+/// Returns the OBJ text with all vertices moved by (x, y).
 std::string moved(const std::string& obj, double x, double y) {
     std::istringstream lines(obj);
     std::string text;
@@ -129,7 +130,7 @@ TEST_F(BakeCommand, FarFromTheOriginTheMapIsTheSame) {
     constexpr double kX = 456123, kY = 5261789;
     const std::string low = sheet(4, 0, true), high = sheet(40, 0.02, false);
     folder.write("far_low.obj", moved(low, kX, kY));
-    // Another sheet next to it, so that a different offset is subtracted.
+    // Another sheet next to the high poly causes another offset to be subtracted.
     folder.write("far_high.obj", moved(high, kX, kY) + moved(sheet(40, 0.02, false, "other", 0, 41 * 41), kX + 30, kY));
     ASSERT_EQ(runTool(folder, "generate -q far_high.obj -o far_high.glb").exit_code, 0);
     ASSERT_EQ(runTool(folder, "bake -q low.obj --high high.obj -o near.png --size 32 --bits 16").exit_code, 0);
@@ -150,7 +151,7 @@ TEST_F(BakeCommand, FarFromTheOriginTheMapIsTheSame) {
 }
 
 TEST_F(BakeCommand, MatchesMeshesByName) {
-    // Each sheet is at the position of the other one's detail.
+    // Each low sheet is at the position of the high sheet that belongs to the other one.
     folder.write("two_low.obj", sheet(4, 0, true, "a_low"));
     std::string high = sheet(40, 0.02, false, "a_high", 0.04);
     folder.write("one_high.obj", high);
@@ -161,7 +162,7 @@ TEST_F(BakeCommand, MatchesMeshesByName) {
 
 TEST_F(BakeCommand, WritesAFilePerTile) {
     std::string low = sheet(2, 0, true);
-    // The right half is in the next tile.
+    // Move the UVs of the right half into the next tile.
     std::string moved;
     std::istringstream lines(low);
     for (std::string line; std::getline(lines, line);) {
@@ -179,7 +180,7 @@ TEST_F(BakeCommand, WritesAFilePerTile) {
     EXPECT_EQ(json["files"].size(), 2U) << json;
     EXPECT_EQ(imageOf(folder, "n.1001.png").width, 16U);
     EXPECT_EQ(imageOf(folder, "n.1002.png").width, 16U);
-    // The ray distance is the same for each tile as for the whole model, and each map can be measured separately.
+    // The ray distance of each tile is that of the whole model, and the map of each tile can be measured separately.
     const auto whole =
         nlohmann::json::parse(runTool(folder, "bake tiles.obj --high high.obj -o w.png --size 16 --json").out);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -227,7 +228,7 @@ TEST_F(BakeCommand, BakesAMapForItsWrapMode) {
     for (const int wrap : {33071, 33648}) {
         const double seam = seamOf(wrap, "");
         EXPECT_LT(seam, 0.5 * seamOf(10497, ""));
-        // The written model reads its map as it was baked.
+        // The sampler of the written model reads the map in the way for which it was baked.
         EXPECT_EQ(seamOf(wrap, "--out-mesh new.gltf"), seam);
         const ToolRun run = runTool(folder, "map-error again.png new.gltf --high high.obj --json");
         EXPECT_NEAR(nlohmann::json::parse(run.out)["angles"]["seamMeanDeg"].get<double>(), seam, 1e-7);
@@ -325,7 +326,7 @@ TEST_F(BakeCommand, AnErrorNamesTheFileThatItIsAbout) {
     }
 }
 
-/// Writes the low poly as a .gltf whose only material uses a normal map with this transform.
+/// Writes the low poly as a .gltf file. Its only material has a normal map with this texture transform.
 std::string withTransform(const TempFolder& folder, const nlohmann::json& transform) {
     EXPECT_EQ(runTool(folder, "generate low.obj -o plain.gltf --all").exit_code, 0);
     auto model = nlohmann::json::parse(folder.read("plain.gltf"));
@@ -361,7 +362,7 @@ TEST_F(BakeCommand, AMapIsBakedForTheUvsThatItsTransformGives) {
     const ToolRun run = runTool(folder, "bake low.gltf --high high.obj -o n.png --size 64 --json --out-mesh new.gltf");
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const auto report = nlohmann::json::parse(run.out);
-    // A quarter of the image.
+    // The map covers a quarter of the image's 64 x 64 texels.
     EXPECT_NEAR(report["files"][0]["texels"]["baked"].get<double>(), 1024, 60);
     const ToolRun measured = runTool(folder, "map-error n.png new.gltf --high high.obj --json");
     EXPECT_NEAR(meanOf(run.out, true), meanOf(measured.out, false), 1e-7) << measured.err;
@@ -422,7 +423,7 @@ TEST_F(BakeCommand, EachMaterialOfTheWrittenModelHasItsMap) {
     }
 }
 
-/// Returns `wanted` of the corrupt models, evenly distributed in the order of their names.
+/// Returns `wanted` of the corrupt models, evenly distributed over the sorted list of their names.
 std::vector<std::string> badModels(std::size_t wanted) {
     std::vector<std::string> all, some;
     const std::filesystem::path folder = std::filesystem::path(TSPACE_SHARED_DIR) / "bad";
@@ -444,7 +445,7 @@ TEST_F(BakeCommand, AMalformedModelCausesOneLineAndNoFile) {
                                           "low.obj --high high.obj --cage '" + model + "'"}) {
             const ToolRun run = runTool(folder, "bake " + inputs + " -q --size 8 -o n.png --out-mesh n.glb");
             EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 1 || run.exit_code == 3 || run.exit_code == 4) << inputs;
-            // 1: the rays hit little or nothing; if there is no map, a line explains why.
+            // Exit code 1: rays hit little or nothing. If no map is written, a line explains why.
             const bool is_written = run.exit_code == 1 && run.err.empty();
             if (run.exit_code == 0 || is_written) {
                 std::filesystem::remove(folder.path("n.png"));

@@ -22,7 +22,7 @@ class BakeMaps : public BakeCommand {
                                                           static_cast<unsigned char>(bytes[14]) << 16;
         return nlohmann::json::parse(bytes.substr(begin, size), nullptr, false);
     }
-    /// Writes a high poly with two materials and two objects, each a sheet over half of the low poly.
+    /// Writes a high poly of two objects with a material each. Each object is a sheet over half of the low poly.
     void writeTwoSheets() const {
         folder.write("m.mtl",
                      "newmtl red\nKd 1 0 0\nPr 0.25\nPm 1\nKe 0 0 1\nnewmtl green\nKd 0 1 0\nPr 0.75\nKe 0 0 0\n");
@@ -148,7 +148,7 @@ TEST_F(BakeMaps, TheModelShowsAllOfThem) {
     // Maps that the model does not use are written nevertheless.
     EXPECT_TRUE(folder.has("n_height.png"));
     EXPECT_TRUE(folder.has("n_ao.png"));
-    // Again from the model itself: the new maps replace the previous ones.
+    // Bake again with the written model as input: the new maps replace the previous ones.
     ASSERT_EQ(runTool(folder,
                       "bake game.glb --high two.obj --size 16 -q -o n.png --samples 4 --out-mesh again.glb "
                       "--maps normal,ao,color,orm,emission")

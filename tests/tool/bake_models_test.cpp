@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// tspace bake on typical models: high polys with their own maps, copies outside the UV map, mirrored halves that share
-// texels.
+// tspace bake on typical models: high polys with maps of their own, copies outside of the UV range, and mirrored halves
+// that share texels.
 #include "tool/baked_sheets.h"
 
 #include <cmath>
@@ -18,7 +18,7 @@ using nlohmann::json;
 
 class BakeModels : public BakeCommand {
   protected:
-    /// Writes a sheet whose u increases along y and v along x, with a material that uses the map.
+    /// Writes a sheet whose u increases along y, and whose v increases along x. Its material uses the map.
     void writeMapped(const std::string& name, const std::string& map) const {
         std::string text = "mtllib " + name + ".mtl\n", faces = sheet(4, 0, true);
         std::istringstream lines(faces);
@@ -70,13 +70,13 @@ TEST_F(BakeModels, TheMapOfTheHighPolyIsBakedThroughOnOtherUvs) {
     writeMap("tilt.png", 8, [](double, double) { return DVec3{0.48, 0.36, 0.8}; });
     writeMapped("mapped", "tilt.png");
     const json report = bake("low.obj --high mapped.obj --size 32");
-    // u of the map increases along y, and v, upward, along x.
+    // u of the map increases along y of the sheet, and v (pointing up) along x.
     EXPECT_LT(degreesBetween(middleOf("out.png"), {0.36, 0.48, 0.8}), 0.02);
     ASSERT_EQ(report["highMaps"].size(), 1U);
     EXPECT_EQ(report["highMaps"][0]["image"], "tilt.png");
     EXPECT_EQ(report["highMaps"][0]["triangles"], 32);
     EXPECT_LT(report["files"][0]["error"]["maxDeg"], 0.02) << "the error counts the map";
-    // map-error uses the same true normals.
+    // map-error uses the same normals of the high poly.
     const ToolRun measured = runTool(folder, "map-error out.png low.obj --high mapped.obj --json");
     EXPECT_LT(json::parse(measured.out)["angles"]["maxDeg"], 0.02) << measured.out;
     const json without = bake("low.obj --high mapped.obj --size 32 --ignore-high-maps");
@@ -87,7 +87,7 @@ TEST_F(BakeModels, TheMapOfTheHighPolyIsBakedThroughOnOtherUvs) {
 TEST_F(BakeModels, TheGreenDirectionOfTheHighPolysMapIsDetectedOrGiven) {
     const auto slopes = [](double green) {
         return [green](double u, double v) {
-            // h = sin(12 u) sin(9 v'), with v' pointing up.
+            // The height is sin(12 u) sin(9 v'), where v' points up.
             return DVec3{-0.6 * std::cos(12 * u) * std::sin(9 * (1 - v)),
                          -green * 0.45 * std::sin(12 * u) * std::cos(9 * (1 - v)), 1};
         };
@@ -117,7 +117,7 @@ TEST_F(BakeModels, AGrayMapOfTheHighPolyIsNotANormalMap) {
     EXPECT_LT(degreesBetween(middleOf("out.png"), {0, 0, 1}), 0.02);
 }
 
-/// Returns a sheet, and another one next to it in space whose UVs are moved by `by`.
+/// Returns a sheet and a second one next to it, which is a little larger and whose UVs are moved by `by`.
 std::string twoSheets(double by) {
     std::string text = sheet(4, 0, true, "a");
     std::istringstream lines(sheet(4, 0, true, "b", 0, 25));
@@ -133,7 +133,7 @@ std::string twoSheets(double by) {
     return text;
 }
 
-/// Returns detail over the first sheet, and different detail over the second.
+/// Returns a high poly with different detail over each of the two sheets.
 std::string twoDetails() {
     std::string text = sheet(40, 0.02, false, "a");
     std::istringstream lines(sheet(40, -0.02, false, "b", 0, 41 * 41));
@@ -206,7 +206,7 @@ TEST_F(BakeModels, AMapInObjectSpaceMayHaveZUp) {
     EXPECT_EQ(folder.read("z.png"), folder.read("same.png"));
     const DVec3 y = middleOf("y.png"), z = middleOf("z.png");
     EXPECT_LT(degreesBetween(z, {y.x, -y.z, y.y}), 0.02);
-    // The map is recognized, and both interpretations give the same map in tangent space.
+    // map-error recognizes the axes of the map, and both maps give the same map in tangent space.
     const ToolRun run = runTool(folder, "map-error z.png low.obj --high high.obj --json");
     const json measured = json::parse(run.out);
     EXPECT_EQ(measured["readings"][0]["frames"], "object");
@@ -232,7 +232,7 @@ TEST_F(BakeModels, InstancesOfAMirroredHalfGetTheRayDistanceOfTheWhole) {
     const std::string both = "'" + file.string() + "'";
     std::ostringstream bytes;
     bytes << std::ifstream(file, std::ios::binary).rdbuf();
-    // The scene without the mirrored node.
+    // Write the scene without the mirrored node.
     std::string half = bytes.str();
     const std::string nodes = R"("nodes": [0, 1])";
     const std::size_t at = half.find(nodes);
@@ -245,12 +245,12 @@ TEST_F(BakeModels, InstancesOfAMirroredHalfGetTheRayDistanceOfTheWhole) {
     };
     const double alone = distanceOf("half.glb", "half.glb");
     EXPECT_DOUBLE_EQ(distanceOf(both, "half.glb"), alone);
-    // Depends on the size of the whole, not on the half by which the high poly extends beyond the low poly's first
-    // instance.
+    // The distance depends on the size of the whole model, not on how far the mirrored half of the high poly is from
+    // the first instance of the low poly.
     EXPECT_LT(distanceOf(both, both), 1.5 * alone);
 }
 
-/// COLOR_0 refers to the UVs, which have too few components.
+/// The accessor of COLOR_0 is that of the UVs, which has too few components.
 TEST_F(BakeModels, AnAttributeThatCannotBeReadCostsNoTexel) {
     ASSERT_EQ(runTool(folder, "generate --all low.obj -o low.glb").exit_code, 0);
     std::string bytes = folder.read("low.glb");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace bake and map-error: the surfaces that rays hit, and the maps that are distinguished.
+// tspace bake and map-error: which surfaces the rays hit, and which maps are told apart.
 #include "tool/baked_sheets.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace tspace::test {
 namespace {
 
-/// Two distant sheets with the same UVs: one has bumps, the other none.
+/// Writes two distant sheets with the same UVs, and a high poly with bumps on one of them only.
 void writeTwoSheets(const TempFolder& folder) {
     folder.write("two.obj", "mtllib two.mtl\nusemtl first\n" + sheet(4, 0, true, "a_low") + "usemtl second\n" +
                                 sheet(4, 0, true, "b_low", 3, 25));
@@ -21,7 +21,7 @@ void writeTwoSheets(const TempFolder& folder) {
 
 TEST_F(BakeCommand, MatchesSeveralHighPolysToOneLowPolyByName) {
     writeTwoSheets(folder);
-    // For a: a base and a buckle above it. For b: a sheet with detail at the position of a.
+    // For sheet a: a base and a buckle above it. For sheet b: a sheet, and detail at the position of sheet a.
     const auto high = [&](const std::string& third) {
         return sheet(40, 0, false, "a_high", 0) + sheet(40, 0.02, false, "a_high_buckle", 0.03, 41 * 41) +
                sheet(40, 0.05, false, third, 0.06, 2 * 41 * 41) + sheet(40, 0, false, "b_hp_001", 3, 3 * 41 * 41);
@@ -69,7 +69,7 @@ TEST_F(BakeCommand, AMapOfOneMaterialIsNotAttributedToAnotherModel) {
 }
 
 TEST_F(BakeCommand, ConflictingTexelsAreAtMostTheOverlappingOnes) {
-    // Some centers are on diagonals, inside no triangle.
+    // The centers of some texels are on diagonals, so they are inside no triangle.
     writeTwoSheets(folder);
     const ToolRun run = runTool(folder, "bake one.obj --high detail.obj -o n.png --size 32 --json");
     ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -97,7 +97,7 @@ TEST_F(BakeCommand, TrianglesOfStlAreSmooth) {
     folder.write("high.stl", stl + "endsolid sheet\n");
     if (runTool(folder, "inspect high.stl").exit_code != 0) GTEST_SKIP() << "there is no tspace-import";
     ASSERT_EQ(runTool(folder, "bake low.obj --high high.stl -o n.png --size 64").exit_code, 0);
-    // The normals in the file all point up, and are ignored.
+    // All normals in the file point up, so they must be ignored.
     EXPECT_LT(meanOf(runTool(folder, "map-error n.png low.obj --high high.obj --json").out, false), 0.5);
 }
 
@@ -148,7 +148,7 @@ TEST_F(BakeCommand, ReportsTheCauseIfMostRaysMiss) {
         EXPECT_FALSE(std::filesystem::exists(folder.path("n.png")));
         EXPECT_EQ(json["outputFiles"].size(), 0U);
     }
-    // Only half of the high poly exists.
+    // Keep only half of the faces of the high poly.
     folder.write("part.obj", withLines(high, [](const std::string& line) {
                      std::istringstream words(line);
                      std::string keyword;
@@ -160,7 +160,7 @@ TEST_F(BakeCommand, ReportsTheCauseIfMostRaysMiss) {
     EXPECT_TRUE(std::filesystem::exists(folder.path("n.png")));
 }
 
-/// Returns the sheet of low.obj, with a small separate shell above it.
+/// Returns the sheet of low.obj with a small separate shell above it.
 std::string sheetWithShell() {
     std::istringstream lines(sheet(8, 0.002, false, "shell"));
     std::string shell;
@@ -172,7 +172,7 @@ std::string sheetWithShell() {
             line = "v " + std::to_string(0.3 + 0.4 * x) + " " + std::to_string(0.3 + 0.4 * y) + " " +
                    std::to_string(0.04 + 0.1 * x * x + z);
     }
-    // Its faces follow the 41 * 41 vertices of the sheet below.
+    // The faces of the shell refer to vertices after the 41 * 41 vertices of the sheet below.
     std::istringstream again(shell);
     std::string moved_faces;
     for (std::string line; std::getline(again, line); moved_faces += line + "\n") {
@@ -230,7 +230,7 @@ TEST_F(BakeCommand, AFewTexelsDoNotIndicateTwoChannels) {
                   .exit_code,
               0);
     FloatImage map = imageOf(folder, "dx.png");
-    // One texel in a hundred has blue below the middle, as at undercuts.
+    // One texel in a hundred has blue below the middle, as in undercuts.
     for (std::size_t i = 0; i < map.texels.size(); i += 100) map.texels[i].z = 1 - map.texels[i].z;
     const auto png = encodePng(map, 16);
     ASSERT_TRUE(png);

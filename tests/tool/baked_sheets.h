@@ -14,8 +14,8 @@
 
 namespace tspace::test {
 
-/// Returns a sheet of cells x cells quads over the unit square with bumps; with UVs or without. `before`: number of
-/// vertices of previous sheets.
+/// Returns a sheet of cells x cells quads with bumps over the unit square. `before`: number of vertices of the sheets
+/// before it in the file.
 inline std::string sheet(int cells, double bump, bool with_uvs, const std::string& name = "sheet", double z = 0,
                          int before = 0) {
     std::string text = "o " + name + "\n";

@@ -23,7 +23,7 @@ std::vector<Json> linesOf(const std::string& text) {
     return lines;
 }
 
-/// Writes in/00.obj ... in/NN.obj in several folders.
+/// Writes the models in/00.obj to in/NN.obj, distributed over several folders.
 void writeModels(const TempFolder& folder, int count) {
     for (int i = 0; i < count; ++i) {
         const std::string place = "in/" + std::string(i % 2 == 0 ? "even" : "odd") + "/";
@@ -237,7 +237,7 @@ TEST(Batch, ResumeRemovesTemporaryFilesOfKilledRuns) {
     leaveTemporaryFile(folder, "out/even/deep/b.glb");
     leaveTemporaryFile(folder, "elsewhere/c.glb");
     EXPECT_EQ(folder.files("out").size(), 2U);
-    // One file of this running process, and one of the user.
+    // One temporary file of this process, which is still running, and one file of the user.
     const std::string mine =
         std::filesystem::path(temporaryName(Path("out/even/d.glb"), kTemporaryEnding).string()).string();
     folder.write(mine, "at work");

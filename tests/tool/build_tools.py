@@ -131,7 +131,8 @@ for command, more in (("check", []), ("inspect", []), ("identify", []), ("genera
     expect(run(command, *more, "-", "--files-from", "-").returncode == 2, f"{command}: two want stdin")
 expect(os.path.exists("made/two.glb") or os.path.exists("made/two.gltf"), "generate with a list writes into a folder")
 
-# Names of materials become parts of file names, which may have 255 bytes. Names that differ only beyond the cut remain different.
+# Names of materials become parts of file names, which may have 255 bytes. Long names that differ only in their ends
+# must give different file names.
 with open("long.obj", "w", encoding="utf-8") as file:
     file.write("mtllib long.mtl\n" + "".join(f"v {x} {y} 0\nvt {x} {y}\n" for x, y in ((0, 0), (1, 0), (0, 1))))
     file.write("".join(f"usemtl {'x' * 300}{end}\nf 1/1 2/2 3/3\n" for end in "ab"))

@@ -53,7 +53,7 @@ TEST(CheckCommand, ReportsTheErrorOfPackedFramesAndTheRemedyForOutdatedOnes) {
     EXPECT_NE(first.out.find("packed frames of 1 primitive in _FRAME32: N within "), std::string::npos) << first.out;
     EXPECT_NE(first.out.find("(0.135 and 0.135 guaranteed), all signs match\n"), std::string::npos) << first.out;
 
-    // The tangents change, but the packed frames are not updated.
+    // The tangents change, but the packed frames do not.
     ASSERT_EQ(runTool(folder, "generate good.glb -q -o other.glb --overwrite --convention opengl").exit_code, 0);
     const ToolRun second = runTool(folder, "check other.glb --convention opengl --fail-on warning");
     EXPECT_EQ(second.exit_code, 1);

@@ -72,7 +72,7 @@ TEST(CheckColors, FollowTheUsersSettings) {
     EXPECT_FALSE(is_colored("--color auto")) << "stdout is no terminal";
     EXPECT_FALSE(is_colored(""));
     EXPECT_EQ(runTool(folder, "check a.glb --color sometimes").exit_code, 2);
-    // script(1) provides a terminal.
+    // The program script provides a terminal.
     if (std::system("command -v script > /dev/null") != 0) GTEST_SKIP() << "script is missing";
     const auto on_terminal = [&](const std::string& environment) {
         const std::string command = "cd '" + folder.path().string() + "' && " + environment +
@@ -109,7 +109,7 @@ TEST(ManyFiles, GetOneLineEachAndASummaryByCode) {
     EXPECT_NE(runTool(folder, "generate in -o out2 -v").out.find("  mesh  prim"), std::string::npos);
 }
 
-/// Checks the rules of the schema, and additional requirements of CI systems.
+/// Checks that the log conforms to the SARIF schema, and to additional requirements of CI systems.
 void expectValidSarif(const Json& log) {
     SarifSchema().expectValid(log);
     ASSERT_EQ(log.at("runs").size(), 1U);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace check on images without a model.
+// tspace check on images that belong to no model.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ using Json = nlohmann::json;
 
 constexpr std::uint32_t kMapSide = 256;
 
-/// Changes each texel (red, green, blue).
+/// Returns the image after calling change(texel) with the red, green and blue of each texel.
 template <class Change>
 RgbImage changed(RgbImage image, const Change& change) {
     for (std::size_t i = 0; i < image.rgb.size(); i += 3) change(&image.rgb[i]);
@@ -39,7 +39,7 @@ std::string pngWithAlpha(const RgbImage& image, const std::vector<float>& alpha)
 
 class CheckImage : public ::testing::Test {
   protected:
-    /// Returns the report on one image.
+    /// Returns the report of check on one image.
     Json check(const std::string& name, const std::string& options = "") {
         const ToolRun run = runTool(folder_, "check --json " + options + " " + name);
         EXPECT_EQ(run.err, "") << name;
@@ -125,12 +125,12 @@ TEST_F(CheckImage, ReportsTheContentOfChannelsAndItsConversion) {
         EXPECT_EQ(remedy.find("generate"), std::string::npos) << remedy;
         const std::size_t at = remedy.find("tspace convert-map ");
         ASSERT_NE(at, std::string::npos) << remedy;
-        // The text after a full stop is the alternative interpretation.
+        // The text after the first full stop is a command for the alternative interpretation.
         const std::string command = remedy.substr(at + 7);
         ASSERT_EQ(runTool(folder_, command.substr(0, command.find(". "))).exit_code, 0) << remedy;
         EXPECT_EQ(codes(check("OUT.png")), Codes{}) << remedy;
     }
-    // DXT5nm, and the same map without the alpha channel that contained x.
+    // A DXT5nm map, and then the same map without its alpha channel, which contained x.
     const RgbImage dxt5nm = changed(map_, [](std::uint8_t* t) { t[0] = t[2] = 255; });
     std::vector<float> x;
     for (std::size_t i = 0; i < map_.rgb.size(); i += 3) x.push_back(static_cast<float>(map_.rgb[i]) / 255.0F);
@@ -186,7 +186,7 @@ TEST_F(CheckImage, WorksWithModelsPipesAndPages) {
     folder_.write("broken.png", folder_.read("n.png").substr(0, 60));
     EXPECT_EQ(runTool(folder_, "check broken.png").exit_code, 3);
     EXPECT_EQ(runTool(folder_, "check none.png").exit_code, 4);
-    // A few bytes that declare 4096 x 4096 texels.
+    // A file of a few bytes that declares 4096 x 4096 texels.
     Ktx2Parts parts{.format = 37, .width = 4096, .height = 4096, .levels = {zstdOf(std::string(1 << 26, '\x80'))}};
     parts.unpacked = {std::uint64_t{1} << 26};
     parts.scheme = 2;
@@ -224,7 +224,7 @@ TEST_F(CheckImage, FindsImagesInFoldersWithoutModels) {
                                                   {"wood_color.png", {}}};
         EXPECT_EQ(found, wanted) << input << report;
     }
-    // An explicitly named image is always checked.
+    // An image that is named explicitly is always checked.
     EXPECT_EQ(codes(check("textures/wood_color.png")).size(), 1U);
     EXPECT_NE(runTool(folder_, "check textures").out.find("not a normal map"), std::string::npos);
     folder_.write("empty/readme.txt", "");

@@ -45,7 +45,7 @@ TEST(CompressMapCommand, IsMoreAccurateFor16BitInputs) {
     const TempFolder folder;
     writeWaves(folder);
     const Json coarse = reportOf(folder, "n8.png -o a.dds"), fine = reportOf(folder, "n16.png -o b.dds");
-    // Measured: 0.063; rounding to 8 bits alone has a mean error of more than 0.1 degrees.
+    // The measured error is 0.063 degrees. Rounding to 8 bits alone causes a mean error of more than 0.1 degrees.
     EXPECT_LT(fine["meanErrorDeg"].get<double>(), 0.07);
     EXPECT_EQ(fine["levels"], 7);
     EXPECT_EQ(coarse["bitsBefore"], 8);
@@ -62,7 +62,7 @@ TEST(CompressMapCommand, IsMoreAccurateFor16BitInputs) {
     EXPECT_LT(from("b.dds"), 0.6 * from("a.dds"));
 }
 
-/// Returns one channel of a texel of a BC5 block, by the formula of the format.
+/// Returns one channel of a texel of a BC5 block, by the formula in the format's specification.
 double bc4(const std::string& file, std::size_t block, std::size_t texel) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned>(static_cast<unsigned char>(file[block + i])); };
     const std::size_t bit = 3 * texel;
@@ -108,7 +108,7 @@ TEST(CompressMapCommand, TheErrorIsThatOfTheFileAsItIsDecodedAndFiltered) {
         sum += std::atan2(length(cross(shaded, packed)), dot(shaded, packed)) * 57.29577951308232;
     }
     const double mean = sum / (kSize * kSize * kPoints * kPoints);
-    // Uses different sample points than the tool: within 5 % of its report.
+    // This test uses other sample points than the tool, so the values may differ by 5 %.
     EXPECT_NEAR(report["meanErrorDeg"].get<double>(), mean, 0.05 * mean);
 }
 
@@ -168,7 +168,7 @@ TEST(CompressMapCommand, CompressesAstcOrReportsTheMissingLibrary) {
     EXPECT_EQ(report["format"], "ASTC 4x4");
     EXPECT_EQ(report["levels"], 7);
     EXPECT_EQ(folder.read("a.ktx2"), folder.read("b.ktx2"));
-    // The report matches the file's contents, as read by any other command.
+    // The report matches the file as other commands read it.
     const Json error = Json::parse(runTool(folder, "map-error --json b.ktx2 --source n16.png").out);
     EXPECT_EQ(error["makesZ"], true);
     EXPECT_NEAR(report["meanErrorDeg"].get<double>(), error["meanErrorDeg"].get<double>(), 1e-6);
@@ -205,7 +205,7 @@ TEST(MapErrorCommand, ReportsTheErrorThatCompressMapReported) {
         EXPECT_NEAR(report["p99ErrorDeg"].get<double>(), made["p99ErrorDeg"].get<double>(), 1e-4);
         EXPECT_EQ(report["makesZ"], true);
     }
-    // Three channels that were only rounded.
+    // A PNG with three channels whose values were only rounded.
     const Json rounded = Json::parse(runTool(folder, "map-error --json n8.png --source n16.png").out);
     EXPECT_EQ(rounded["makesZ"], false);
     EXPECT_LT(rounded["meanErrorDeg"], 0.2);
@@ -247,8 +247,9 @@ TEST(MapErrorCommand, ExplainsWhatTheErrorOfATextureExcludes) {
               std::string::npos);
 }
 
-/// Returns a sphere without background: alpha is 1 inside and 0 outside, where texels are black; or alpha contains
-/// heights everywhere. `edge`: texels with alpha 0.5 around it, whose colors are multiplied by alpha.
+/// Returns a normal map of a sphere. Alpha is 1 inside and 0 outside, where texels are black; with `alpha_is_height`,
+/// alpha contains heights everywhere. `has_edge`: the sphere is surrounded by texels with alpha 0.5, whose colors are
+/// multiplied by alpha.
 FloatImage sphereSprite(bool alpha_is_height, bool has_edge) {
     constexpr std::uint32_t kSize = 64;
     FloatImage image{kSize, kSize, 16, {}, {}};
@@ -266,7 +267,7 @@ FloatImage sphereSprite(bool alpha_is_height, bool has_edge) {
     return image;
 }
 
-/// Returns the largest angle on a level between its texels and those of the covered part of the sphere.
+/// Returns the largest angle, in degrees, between the texels of a level and the covered part of the sphere.
 double mostOff(const TempFolder& folder, unsigned level) {
     std::string why;
     const auto image = decodeFloatImage(bytesOf(folder.read("out/s." + std::to_string(level) + ".png")), 1 << 20, why);
@@ -303,7 +304,7 @@ TEST(CompressMapCommand, DetectsAlphaThatIsCoverage) {
     for (const unsigned level : {0U, 1U, 2U, 3U}) EXPECT_LT(mostOff(folder, level), 0.1) << level;
     reportOf(folder, "s.png -o out/ --alpha data");
     EXPECT_GT(mostOff(folder, 2), 20);
-    // Colors that were multiplied by alpha.
+    // The colors at the edge were multiplied by alpha.
     write(sphereSprite(false, true));
     EXPECT_NE(reportOf(folder, "s.png -o out/")["warnings"].dump().find("divided by it"), std::string::npos);
     for (const unsigned level : {0U, 1U, 2U}) EXPECT_LT(mostOff(folder, level), 4) << level;
@@ -311,7 +312,7 @@ TEST(CompressMapCommand, DetectsAlphaThatIsCoverage) {
     reportOf(folder, "s.png -o d.dds");
     EXPECT_EQ(folder.read("c.dds").size(), folder.read("d.dds").size());
     EXPECT_LT(Json::parse(runTool(folder, "map-error c.dds --source d.dds --json").out)["meanErrorDeg"], 0.6);
-    // Heights in alpha: they must not affect the result.
+    // Alpha contains heights, which must not affect the result.
     write(sphereSprite(true, false));
     const Json heights = reportOf(folder, "s.png -o e.dds");
     EXPECT_NE(heights["warnings"].dump().find("set the option alpha to coverage"), std::string::npos) << heights;
@@ -368,7 +369,7 @@ TEST(CompressMapCommand, SupercompressesLevels) {
     EXPECT_EQ(from_plain->texels, from_packed->texels);
 }
 
-/// Writes rows tilted alternately up and down, and a uniform roughness.
+/// Writes a map of rows that are tilted up and down in alternation, and a uniform roughness map.
 void writeCorrugated(const TempFolder& folder, std::uint32_t size, std::uint32_t roughness_size) {
     FloatImage map{size, size, 16, {}, {}}, orm{roughness_size, roughness_size, 8, {}, {}};
     for (std::uint32_t i = 0; i < size * size; ++i)
@@ -423,11 +424,11 @@ TEST(CompressMapCommand, ReportsTexelsThatTwoChannelsCannotRepresent) {
     const Json report = reportOf(folder, "n.png -o n.dds");
     EXPECT_EQ(report["belowHorizon"], 64);
     EXPECT_EQ(report["warnings"].size(), 2u) << report["warnings"];
-    // The error is relative to the original map, as in map-error, and not to the texels clamped to the horizon.
+    // As in map-error, the error is relative to the original map, not to texels that were clamped to the horizon.
     EXPECT_NEAR(report["meanErrorDeg"].get<double>(), std::atan2(0.4, 0.9) * 57.29577951308232, 0.5);
     const Json beside = Json::parse(runTool(folder, "map-error --json n.dds --source n.png").out);
     EXPECT_NEAR(beside["meanErrorDeg"].get<double>(), report["meanErrorDeg"].get<double>(), 1e-6);
-    // PNGs have three channels, and represent everything.
+    // PNGs have three channels, which can represent directions below the horizon.
     const Json of_pngs = reportOf(folder, "n.png -o levels/");
     EXPECT_EQ(of_pngs["belowHorizon"], 64);
     EXPECT_EQ(of_pngs["warnings"].size(), 1u) << of_pngs["warnings"];
@@ -443,7 +444,7 @@ TEST(CompressMapCommand, ReportsTexelsThatTwoChannelsCannotRepresent) {
     }
 }
 
-/// Returns a PNG file of vectors tilted in all directions, with lengths alternating between the two `sizes`.
+/// Returns a PNG of vectors tilted in all directions. The vectors' lengths alternate between the two `sizes`.
 std::string vectorsOfSizes(std::array<double, 2> sizes) {
     FloatImage image{64, 64, 8, {}, {}};
     for (std::uint32_t i = 0; i < 64 * 64; ++i) {

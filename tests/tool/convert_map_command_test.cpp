@@ -17,8 +17,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Writes bump.png, and a bent sheet with uneven UVs that uses it: a.glb with tangents, b.glb with those of another
-/// method.
+/// Writes bump.png, and a bent sheet with uneven UVs that uses it: a.glb with tangents of the default method, and b.glb
+/// with those of the method flat.
 void writeSheet(const TempFolder& folder) {
     folder.write("sheet.mtl", "newmtl skin\nmap_Bump bump.png\n");
     folder.write("a.obj",
@@ -35,7 +35,7 @@ void writeSheet(const TempFolder& folder) {
     }
 }
 
-// Models of other formats are read here too.
+// convert-map also reads models of other formats.
 TEST(ConvertMapCommand, FindsTheImporter) {
     const TempFolder folder;
     writeSheet(folder);
@@ -136,7 +136,7 @@ TEST(ConvertMapCommand, ChoosesTheTrianglesOfAMaterial) {
 TEST(ConvertMapCommand, TakesTheTrianglesOfATile) {
     const TempFolder folder;
     writeSheet(folder);
-    // A copy of the right half: once as a separate model, and once in the UV tile above the next one.
+    // Copies of the right half: in a model of its own, and with UVs in the tile that is to the right and above.
     const std::string points =
         "v 1 0 0\nv 2 0 -1\nv 1 1 0\nv 2 1 -1\nvn 0.3 0 0.95\nvn 0.7 0 0.7\nvn 0.4 0.1 0.9\nvn 0.7 0.2 0.7\n";
     const std::string uvs = "vt 0.4 0\nvt 1 0\nvt 0.6 1\nvt 1 1\n", moved = "vt 1.4 1\nvt 2 1\nvt 1.6 2\nvt 2 2\n";
@@ -162,7 +162,7 @@ TEST(ConvertMapCommand, TakesTheTrianglesOfATile) {
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "5.png"));
 }
 
-/// Writes the model as glTF, with nodes and material changed by `edit`.
+/// Writes the model as a .gltf file and changes its JSON by edit(json).
 template <class Edit>
 void writeEdited(const TempFolder& folder, const std::string& model, const std::string& name, const Edit& edit) {
     ASSERT_EQ(runTool(folder, "generate -q " + model + " -o " + name).exit_code, 0);
@@ -184,7 +184,7 @@ TEST(ConvertMapCommand, TransformsWorldSpaceWithTheNodesOfTheMesh) {
     writeSheet(folder);
     struct Case {
         Json node;
-        std::array<DVec3, 3> rows;  // from object to world space, for normals
+        std::array<DVec3, 3> rows;  // rows of the matrix from object to world space for normals
     };
     const double c = std::sqrt(0.5);
     const Case cases[] = {
@@ -261,7 +261,7 @@ TEST(ConvertMapCommand, AppliesTheScaleOfBothMaterials) {
         for (std::size_t i = 0; i < before.texels.size(); ++i)
             EXPECT_LT(length(directionIn(before.texels[i]) - directionIn(after.texels[i])), most) << bits;
     }
-    // The same file on both sides: no change, for any scale.
+    // With the same file on both sides nothing changes, whatever the scale of the map.
     ASSERT_EQ(runTool(folder, "convert-map -q bump.png --mesh a.gltf -o same.png").exit_code, 0);
     EXPECT_TRUE(imageIn(folder, "same.png").texels == imageIn(folder, "bump.png").texels);
     EXPECT_EQ(runTool(folder, "convert-map bump.png --mesh a.gltf --to-mesh none.gltf -o b.png").exit_code, 3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace convert-map on models for which no map can be converted: it reports the reason, and writes nothing.
+// tspace convert-map on models for which no map can be converted: the tool reports the reason and writes nothing.
 #include <cmath>
 #include <sstream>
 
@@ -17,7 +17,7 @@ class ConvertMapRefusals : public testing::Test {
         EXPECT_TRUE(png);
         if (png) folder.write("n.png", std::string(png->begin(), png->end()));
     }
-    /// Returns a sheet whose lines `v` and `vt` are changed by the function.
+    /// Returns a sheet whose lines "v" and "vt" are changed by `change`.
     template <class Change>
     static std::string changed(const Change& change, const std::string& name = "sheet", int before = 0) {
         std::string text;
@@ -33,7 +33,7 @@ class ConvertMapRefusals : public testing::Test {
         return text;
     }
     static std::string numbers(double x, double y) { return " " + std::to_string(x) + " " + std::to_string(y); }
-    /// Returns the exit code; stderr is stored in `said`.
+    /// Runs convert-map and returns its exit code. Stores the text of stderr in `said`.
     int convert(const std::string& options) {
         const ToolRun run = runTool(folder, "convert-map n.png -o out.png " + options);
         said = run.err;
@@ -56,7 +56,7 @@ TEST_F(ConvertMapRefusals, ModelsWithOtherUvsOrOtherPositions) {
         EXPECT_NE(said.find("same surface and UVs"), std::string::npos) << said;
         EXPECT_FALSE(folder.has("out.png")) << other;
     }
-    // The same surface, triangulated along the other diagonals and in a different order.
+    // The same surface, with triangles along the other diagonals and in another order.
     folder.write("bumps.obj", sheet(4, 0.001, true));
     EXPECT_EQ(convert("--mesh a.obj --to-mesh bumps.obj"), 0) << said;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EXR in the commands that read images: floats from -1 to 1 give the same results as a PNG of the same vectors.
+// EXR files in the commands that read images: floats from -1 to 1 give the same results as a PNG of the same vectors.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

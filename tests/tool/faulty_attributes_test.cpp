@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Attributes that cannot be read: each command reports or ignores them, and processes the rest of the model.
+// Attributes that cannot be read: each command reports or ignores them, and processes the other parts of the model.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Models with one attribute of a wrong type or number of elements, and a second primitive without a fault.
+// Models in which one attribute has a wrong type or a wrong number of elements. A second primitive has no fault.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@
 namespace tspace::test {
 
 struct FaultyModel {
-    const char* name;       ///< name of the test
+    const char* name;       ///< name of the test case
     const char* attribute;  ///< the faulty attribute
-    int target;             ///< index of the morph target; -1: the primitive itself
+    int target;             ///< index of the morph target that has the attribute; -1: the primitive itself
     int component_count;
-    int element_count;      ///< the primitive has kFaultyVertices vertices
-    bool is_repairable;     ///< by a command
-    const char* also = "";  ///< another attribute with the same type and number of elements
+    int element_count;      ///< correct is kFaultyVertices
+    bool is_repairable;     ///< whether a command repairs the fault
+    const char* also = "";  ///< another attribute, with the same fault
 };
 
 inline constexpr int kFaultyVertices = 4;
@@ -63,8 +63,8 @@ inline std::string writeFaulty(const TempFolder& folder, const FaultyModel& mode
                                      {"type", components == 1 ? "SCALAR" : "VEC" + std::to_string(components)}});
         return gltf["accessors"].size() - 1;
     };
-    /// Adds an attribute with values(v) for each vertex v; with a different number of vertices and components if it is
-    /// the faulty one.
+    /// Adds an attribute with values(v) for each vertex v, and returns its accessor. The faulty attribute gets another
+    /// number of vertices and components.
     const auto attribute = [&](const std::string& name, int target, int components, const auto& values) {
         const bool is_here = model.target == target && (name == model.attribute || name == model.also);
         const int count = is_here ? model.element_count : kFaultyVertices;
@@ -95,7 +95,7 @@ inline std::string writeFaulty(const TempFolder& folder, const FaultyModel& mode
         corners.push_back(bits);
     }
     for (const int mesh : {0, 1}) {
-        const int base = mesh == 0 ? -2 : -1;  // the fault is never at -2
+        const int base = mesh == 0 ? -2 : -1;  // no fault has target -2, so mesh 0 has none
         Json attributes = {{"POSITION", attribute("POSITION", base, 3,
                                                   [&](int v) {
                                                       return List{x(v), y(v), 0};

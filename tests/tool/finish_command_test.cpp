@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// tspace finish: correct data is preserved, faults are repaired, and a low poly gets all maps.
+// tspace finish: correct data is preserved, faults are repaired, and low polys get all maps.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@ class Finish : public testing::Test {
         EXPECT_EQ(run.exit_code, exit_code) << arguments << run.err;
         return Json::parse(run.out, nullptr, false);
     }
-    /// Returns the number of findings of each kind in a file.
+    /// Returns the names of the findings in a file, with their numbers.
     [[nodiscard]] std::map<std::string, int> found(const std::string& name) const {
         const ToolRun run = runTool(folder, "check --json " + name);
         const Json json = Json::parse(run.out, nullptr, false);
@@ -36,7 +36,8 @@ class Finish : public testing::Test {
     const TempFolder folder;
 };
 
-/// Returns two triangles per cell over a unit square. Every eleventh triangle is flipped; `fits`: so are its normals.
+/// Returns an uneven sheet of unit cells with two triangles each. Every eleventh triangle is flipped. `fits`: the
+/// normals of flipped triangles are flipped too.
 std::string turnedSheet(int cells, bool with_normals, bool fits) {
     std::string text = "o sheet\n", faces;
     for (int y = 0; y <= cells; ++y) {
@@ -111,7 +112,7 @@ TEST_F(Finish, LeavesNoErrorThatCheckFindsInTangentsOrNormals) {
     EXPECT_EQ(found("signs.glb").count("signsInverted"), 1U);
     (void)report("signs.glb -o out.glb");
     EXPECT_EQ(found("out.glb").count("signsInverted"), 0U);
-    // One of two primitives gets normals of length 0; the other keeps its own.
+    // One of two primitives has normals of length 0 and gets new ones. The other one keeps its normals.
     std::string text = turnedSheet(12, true, false);
     text.replace(text.find("vn 0 0 1"), 18, "vn 0.28 0 0.96\nvn 0 0 1");
     const std::size_t half = text.find("\nf ", text.size() / 2) + 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that several tests of the tool write to a folder, and images that they read from it.
+// Files that several tests of the tool write to a folder, and images that the tests read from it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 
 namespace tspace::test {
 
-/// Decodes a file that must be an image.
+/// Decodes a file, which must be an image.
 inline FloatImage imageIn(const TempFolder& folder, const std::string& name) {
     std::string why;
     const std::string file = folder.read(name);
@@ -26,15 +26,15 @@ inline FloatImage imageIn(const TempFolder& folder, const std::string& name) {
     return image.value_or(FloatImage{});
 }
 
-/// Writes `name` with one error, signsInverted, because tangents of another convention have inverted signs for glTF;
-/// and folded.obj with two notes, normalsMissing and tangentsMissing.
+/// Writes `name` and folded.obj. In `name`, check finds one error, signsInverted, because its tangents have the signs
+/// of another convention than glTF's. In folded.obj it finds two notes, normalsMissing and tangentsMissing.
 inline void writeInverted(const TempFolder& folder, const std::string& name) {
     writeFoldedObj(folder, "folded.obj");
     writeBumpMap(folder);
     ASSERT_EQ(runTool(folder, "generate folded.obj -q --convention opengl -o '" + name + "'").exit_code, 0);
 }
 
-/// Writes the file that a run on `target` would have left if it was killed.
+/// Writes the temporary file that a run on `target` would have left if it had been killed.
 inline void leaveTemporaryFile(const TempFolder& folder, const std::string& target) {
     const pid_t child = fork();
     if (child == 0) {

@@ -344,7 +344,7 @@ TEST(Generate, ThreadsChangeNoByte) {
     }
 }
 
-/// Writes a tube of 40 x 120 squares whose points deviate by up to a fifth of an edge.
+/// Writes a tube of 40 x 120 squares. `is_noisy`: points deviate by up to a fifth of an edge.
 void writeNoisyTube(const TempFolder& folder, const std::string& name, bool is_noisy) {
     constexpr int kSides = 40, kRows = 120;
     std::string text;

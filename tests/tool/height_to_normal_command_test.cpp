@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 
 constexpr std::uint32_t kSize = 128;
 
-/// Heights from 0 to 1 that repeat at the borders.
+/// Returns heights from 0 to 1 that repeat at the borders.
 double hill(double x, double y) {
     return .5 + .25 * std::sin(12.566370614 * x) * std::cos(6.283185307 * y) + .2 * std::cos(12.566370614 * y);
 }
@@ -36,7 +36,7 @@ void writeHeights(const TempFolder& folder, unsigned bits) {
     folder.write("height.png", std::string(file->begin(), file->end()));
 }
 
-/// Writes a square of two units, whose material has the height map.
+/// Writes a square with an edge length of 2 units, whose material has the height map.
 void writeWall(const TempFolder& folder) {
     folder.write("wall.mtl", "newmtl a\nmap_bump -bm 0.1 height.png\n");
     folder.write("wall.obj",
@@ -44,7 +44,8 @@ void writeWall(const TempFolder& folder) {
                  "vn 0 0 1\nusemtl a\nf 1/1/1 2/2/1 3/3/1 4/4/1\n");
 }
 
-/// Returns the mean angle to the normals of the hill; `height`: height of white, in widths of the image.
+/// Returns the mean angle, in degrees, between the texels and the normals of the hill. `height`: height of white, in
+/// widths of the image.
 double errorOf(const std::string& file, double height) {
     std::string why;
     const auto image = decodeFloatImage(bytesOf(file), 1 << 22, why);
@@ -109,7 +110,8 @@ TEST(HeightToNormalCommand, ReportsUnusualInputs) {
     EXPECT_EQ(runTool(folder, "height-to-normal none.png -o n.png").exit_code, 4);
 }
 
-/// Returns heights with 1/8 m per texel to the right and 2 m per texel downward, encoded in bytes.
+/// Returns heights that increase by 1/8 m per texel to the right, and by 2 m per texel downward, in one of the
+/// encodings of elevation tiles.
 std::string terrainPng(bool is_terrarium) {
     RgbImage image{32, 16, {}};
     for (std::uint32_t i = 0; i < image.width * image.height; ++i) {
@@ -174,13 +176,13 @@ TEST(HeightToNormalCommand, GenerateConvertsMapBumpOfObj) {
     EXPECT_NE(map["reason"].get<std::string>().find("was a height map"), std::string::npos);
     EXPECT_LT(errorOf(normalMapIn(folder, "wall.glb"), 0.05), 0.6);
     EXPECT_EQ(runTool(folder, "check wall.glb --fail-on note").exit_code, 0);
-    // A normal map used as map_bump is preserved.
+    // If map_bump is a normal map, it is used as it is.
     folder.write("height.png", pngFile(normalMapOf(16, bumps)));
     ASSERT_EQ(runTool(folder, "generate -q wall.obj -o own.glb").exit_code, 0);
     EXPECT_NE(folder.read("own.glb").find(R"("uri":"height.png")"), std::string::npos);
 }
 
-/// Heights with a tint are still heights, and a colored picture is neither heights nor a normal map.
+/// Heights with a slight tint are still heights. A colored picture is neither a height map nor a normal map.
 TEST(HeightToNormalCommand, TreatsMapBumpAsHeightsOnlyIfItIsGray) {
     const TempFolder folder;
     writeWall(folder);
@@ -202,7 +204,7 @@ TEST(HeightToNormalCommand, TreatsMapBumpAsHeightsOnlyIfItIsGray) {
     EXPECT_NE(picture.out.find("the image is a color image"), std::string::npos) << picture.out;
 }
 
-/// The picture of the OBJ equals that of the GLB that generate converts it to.
+/// The picture of the OBJ file equals that of the GLB that generate makes from it.
 TEST(HeightToNormalCommand, RenderShowsHeightsAsGenerateConvertsThem) {
     const TempFolder folder;
     writeHeights(folder, 8);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The JSON output conforms to docs/schema. All other tests of the tool check this too; this file tests the documents
-// that no other test covers.
+// The JSON output conforms to docs/schema. All other tests of the tool check this too; this file tests documents that
+// no other test covers.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Returns the document of a run; runTool validates it against its schema.
+/// Returns the JSON document of a run. runTool validates it against its schema.
 Json documentOf(const TempFolder& folder, const std::string& arguments, int exit_code) {
     const ToolRun run = runTool(folder, arguments + " --json");
     EXPECT_EQ(run.exit_code, exit_code) << run.err;
@@ -23,7 +23,7 @@ Json documentOf(const TempFolder& folder, const std::string& arguments, int exit
     return document;
 }
 
-/// Runs the command on a valid and an invalid file.
+/// Runs a command on a valid file and on an invalid one.
 void expectBoth(const std::string& arguments) {
     const TempFolder folder;
     writeFoldedObj(folder, "in/a.obj");
@@ -91,7 +91,7 @@ TEST(JsonOutput, OfDiffIsThereForEqualAndDifferentAndMissingFiles) {
     documentOf(folder, "diff a.glb none.glb", 4);
 }
 
-/// Returns a valid report, to be made invalid.
+/// Returns a valid report, which tests then make invalid.
 Json soundReport() {
     const TempFolder folder;
     writeFoldedObj(folder, "in/a.obj");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs each command that check names for a map; afterwards there is no finding left, and the normals are correct.
+// Runs each command that check names for a map. Afterwards no finding may be left, and the normals must be correct.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ double meanError(const FloatImage& a, const FloatImage& b) {
     return sum / static_cast<double>(a.texels.size());
 }
 
-/// Writes a square that uses NAME.png, as NAME.gltf.
+/// Writes the model NAME.gltf of a square that uses NAME.png.
 void writeSquare(const TempFolder& folder, const std::string& name) {
     folder.write(name + ".mtl", "newmtl a\nnorm " + name + ".png\n");
     folder.write(name + ".obj", "mtllib " + name +
@@ -62,7 +62,7 @@ Json findingsIn(const TempFolder& folder, const std::string& file) {
 struct Kind {
     const char* code;
     const char* options;  ///< options that the remedy names
-    const char* others;   ///< options for inverted relief, if it looks the same; null: none
+    const char* others;   ///< options for inverted relief, if both kinds of relief look the same; otherwise null
     Vec3 (*store)(const Vec3& texel);
     float (*alpha)(const Vec3& texel) = nullptr;
 };
@@ -179,7 +179,7 @@ TEST(FixMaps, TexturesBecomePngsWithoutAnExtension) {
     }
 }
 
-/// Round bumps curve separately along x and along y, so that only one of the two channels can be x.
+/// Returns the height of round bumps. They curve along x and along y, so that only one of the two channels fits as x.
 double bumpsApart(double x, double y) {
     double h = 0;
     for (int i = 0; i < 36; ++i) {
@@ -260,7 +260,7 @@ TEST(FixMaps, ConvertsAMapFromObjectSpace) {
     const TempFolder folder;
     writeImage(folder, "map.png", floatsOf(soundMap()));
     folder.write("map.mtl", "newmtl a\nnorm map.png\n");
-    // A quarter of a tube.
+    // Almost half of a tube.
     std::string obj = "mtllib map.mtl\nusemtl a\n";
     constexpr int kSteps = 8;
     for (int i = 0; i <= kSteps; ++i) {
@@ -377,7 +377,7 @@ TEST(FixMaps, WithoutImagesRepairKeepsInvertedSignsAndOverwriteReadsNone) {
     EXPECT_EQ(actionOf("--repair"), "replaced");
     EXPECT_EQ(actionOf("--repair --no-images"), "kept");
     EXPECT_EQ(runTool(folder, "generate inverted.glb -o out.glb --no-images --fix-maps").exit_code, 2);
-    // Overwriting does not examine the map, and therefore warns.
+    // With --overwrite, the map is not examined, and a warning says so.
     const ToolRun done = runTool(folder, "generate --json inverted.glb -o out.glb --overwrite");
     EXPECT_NE(done.out.find("Their normal maps were not examined"), std::string::npos) << done.out;
     EXPECT_NE(runTool(folder, "generate inverted.glb -o out.glb --overwrite --no-images")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// generate --fix-winding on files of every kind, followed by check.
+// generate --fix-winding on files of all formats, followed by check.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 constexpr int kAround = 24, kAlong = 12;
 
-/// Returns a torus with every seventh triangle flipped. Its upper half has a different material.
+/// Returns a torus whose upper half has another material. `damaged`: every seventh triangle is flipped.
 std::string torus(bool with_normals, bool damaged = true) {
     std::string text = "mtllib a.mtl\n", faces;
     const auto number = [](double x) { return std::to_string(std::lround(1e6 * x) / 1e6) + " "; };
@@ -91,7 +91,7 @@ TEST(FixWindingOfFiles, FlipsFacesOfObjBeforeNormalsAreComputed) {
     EXPECT_EQ(1, report["windings"][0]["byVolume"].get<int>());
     for (const Json& primitive : report["primitives"]) EXPECT_EQ(0, primitive["normalsBehind"].get<int>());
     EXPECT_FALSE(findsNormalsAgainstWinding(folder, "b.glb"));
-    // The repaired file must equal the result for the undamaged file.
+    // The repaired file must equal the result for a file without damage.
     writeTorus(folder, false, false);
     ASSERT_EQ(0, runTool(folder, "generate -q --all --normals angle a.obj -o c.glb").exit_code);
     EXPECT_EQ(0, runTool(folder, "diff b.glb c.glb").exit_code);
@@ -111,7 +111,8 @@ TEST(FixWindingOfFiles, LeavesNoFindingForAnyCompression) {
         EXPECT_NE(std::string::npos, (found.out + found.err).find("tspace generate --fix-winding")) << found.out;
         for (const std::string more : {"", " --compress none", " --compress meshopt"}) {
             const Json report = fileReport(folder, "generate --fix-winding" + more + " b.glb -o c.glb");
-            // Draco quantizes the positions of each primitive on a separate grid, so they are not connected.
+            // Draco quantizes the positions of each primitive on a grid of its own, so the primitives do not share
+            // positions.
             const int components = packed == "draco" ? 2 : 1;
             expectMended(report, kTurned, components);
             EXPECT_EQ(components, report["windings"][0]["byNormals"].get<int>());
@@ -132,7 +133,7 @@ TEST(FixWindingOfFiles, FollowsTheVolumeIfNormalsAreRecomputed) {
     EXPECT_FALSE(findsNormalsAgainstWinding(folder, "b.glb"));
 }
 
-/// Cards around a point, with normals that point away from it; every second card has the opposite winding.
+/// Cards around a point. Their normals point away from the point, and every second card has the opposite winding.
 TEST(FixWindingOfFiles, FlipsEachCardTowardItsOwnNormals) {
     TempFolder folder;
     constexpr int kCards = 10;
@@ -167,7 +168,8 @@ TEST(FixWindingOfFiles, FlipsEachCardTowardItsOwnNormals) {
     EXPECT_EQ(0, fileReport(folder, "generate --fix-winding b.glb -o c.glb")["windings"][0]["turned"].get<int>());
 }
 
-/// Returns a tetrahedron without indices in the given mode: its faces are given by corners.
+/// Returns a tetrahedron as a primitive of the given mode. `corners`: the points of its faces, written as indices or as
+/// vertices.
 std::string tetrahedron(unsigned mode, const std::vector<int>& corners, bool with_indices) {
     constexpr float kPoints[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     std::string bytes;
@@ -210,7 +212,7 @@ std::string tetrahedron(unsigned mode, const std::vector<int>& corners, bool wit
 
 TEST(FixWindingOfFiles, ConvertsStripsAndUnindexedPrimitivesToLists) {
     TempFolder folder;
-    // The tetrahedron inside out, as a strip and without indices, and with one flipped face.
+    // The tetrahedron is inside out in a strip and in unindexed triangles. The third one has one flipped face.
     folder.write("strip.gltf", tetrahedron(5, {0, 1, 2, 3, 0, 1}, true));
     folder.write("bare.gltf", tetrahedron(4, {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2}, false));
     folder.write("one.gltf", tetrahedron(4, {0, 2, 1, 0, 3, 1, 0, 3, 2, 1, 2, 3}, true));

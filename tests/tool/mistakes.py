@@ -22,7 +22,7 @@ def run(arguments):
 
 listed = run(["--help"]).stdout
 
-# Inputs of each command, its options, and a valid name of its output.
+# For each command: its inputs, further options, and a valid name of an output.
 COMMANDS = {
     "generate": (["MODEL"], [], "out.glb"),
     "diff": (["MODEL", "a.obj"], [], None),
@@ -159,7 +159,8 @@ def test_encodings():
                        ["bake", "a.obj", "--high", "a.obj", "--match", "pairs.txt", "-o", "out.png"]]
         for arguments in others:
             expect(arguments, 3, f"the text is encoded as {shown}, which is not supported; save the file as UTF-8")
-    # A byte order mark of UTF-8 is no part of the first name, and names of one letter may be separated by NUL bytes.
+    # A byte order mark is not a part of the first name. Names of one letter may be separated by NUL bytes (and are not
+    # mistaken for UTF-16).
     for name, content in (("list.txt", b"\xef\xbb\xbfmissing.obj\n"), ("list.txt", b"m\0n\0")):
         with open(name, "wb") as file:
             file.write(content)

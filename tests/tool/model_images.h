@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads and replaces the images of a glTF file without the library.
+// Reads and replaces images of glTF files without the library.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ class ModelImages {
         is_binary_ = true;
     }
 
-    /// Returns the image of the texture reference at a JSON pointer.
+    /// Returns the index of the image to which the texture reference at a JSON pointer refers.
     [[nodiscard]] std::size_t imageAt(const std::string& pointer) const {
         const nlohmann::json& reference = json_.at(nlohmann::json::json_pointer(pointer));
         const nlohmann::json& texture = json_["textures"][reference["index"].get<std::size_t>()];
@@ -49,7 +49,7 @@ class ModelImages {
         return bytes.substr(view.value("byteOffset", std::size_t{0}), view["byteLength"]);
     }
 
-    /// Makes every texture that uses the image use the PNG.
+    /// Replaces an image by a PNG for all textures that use it.
     void replace(std::size_t image, const std::string& png) {
         json_["images"][image] = {{"uri", "data:image/png;base64," + base64Of(png)}};
         for (nlohmann::json& texture : json_["textures"]) {
@@ -76,7 +76,7 @@ class ModelImages {
         return bytes + "JSON" + text + rest_;
     }
 
-    /// Copies the files that the model references.
+    /// Copies the files that the model references into a folder.
     void copyFiles(const std::filesystem::path& to) const {
         for (const char* list : {"buffers", "images"}) {
             if (!json_.contains(list)) continue;
@@ -131,7 +131,7 @@ class ModelImages {
 
     std::filesystem::path folder_;
     nlohmann::json json_ = {};
-    std::string rest_ = {};  ///< the chunks of a GLB after its JSON
+    std::string rest_ = {};  ///< the chunks that follow the JSON in a GLB
     bool is_binary_ = false;
 };
 

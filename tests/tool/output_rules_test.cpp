@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Conflicts of outputs with each other and with files that models reference; names that are too long or not UTF-8;
+// Outputs that conflict with each other or with files that models reference; names that are too long or not UTF-8;
 // reports that cannot be written; dry runs.
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -26,7 +26,8 @@ std::map<std::string, std::string> treeOf(const TempFolder& folder) {
     return contents;
 }
 
-/// Returns a triangle whose buffer and optional normal map are files.
+/// Returns the JSON of a triangle. `buffer`, `image`: names of the files that it references; without an image there is
+/// no normal map.
 std::string triangle(const std::string& buffer, const std::string& image = "") {
     const std::string material =
         image.empty() ? ""
@@ -41,7 +42,8 @@ std::string triangle(const std::string& buffer, const std::string& image = "") {
            R"(}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0})";
 }
 
-/// Returns 0 0 0, x 0 0, 0 x 0 and UVs, with x = 2.5 for '\x40'.
+/// Returns the buffer of the triangle: positions 0 0 0, x 0 0 and 0 x 0, and UVs. x depends on `byte`: it is 2.5 for
+/// 0x40.
 std::string triangleBytes(char byte = '\x40') {
     std::string buffer(60, '\0');
     buffer[15] = buffer[31] = byte;
@@ -78,7 +80,7 @@ TEST(LongNames, InAModelAreBadInput) {
             EXPECT_TRUE(treeOf(folder) == before) << command;
         }
     }
-    // The geometry is complete without an image.
+    // The geometry is complete even if the image cannot be read.
     for (const std::string& image : {std::string(300, 'n') + ".png", deep + "bump.png"}) {
         folder.write("a.gltf", triangle("a.bin", image));
         for (const char* command : {"check a.gltf", "inspect a.gltf", "generate a.gltf -o x.glb"}) {
@@ -135,7 +137,8 @@ TEST(LongNames, OnTheCommandLineCannotBeReadOrWritten) {
 TEST(NamesThatAreNotUtf8, AreKnownToTheManifest) {
     const TempFolder folder;
     const std::string data = triangleBytes();
-    // Two names that are equal once invalid bytes are replaced, and one that equals the encoding of the first.
+    // The first two names are equal once invalid bytes are replaced. The third one equals the percent-encoding of the
+    // first.
     for (const char* name : {"b\xff", "b\xfe", "b%FF"}) {
         folder.write(std::string("in/") + name + ".bin", data);
         std::string uri = name;
@@ -153,10 +156,10 @@ TEST(NamesThatAreNotUtf8, AreKnownToTheManifest) {
     ToolRun again = runTool(folder, "generate in --all -o out/ --manifest m.jsonl --resume");
     EXPECT_EQ(again.exit_code, 0) << again.err;
     EXPECT_EQ(folder.read("m.jsonl"), first) << again.out;
-    // Only the changed file is processed again.
+    // Only the file that has changed is processed again.
     folder.write("in/b\xfe.bin", triangleBytes('\x41'));
     again = runTool(folder, "generate in -q --all -o out/ --manifest m.jsonl --resume");
-    EXPECT_EQ(again.exit_code, 4) << again.err;  // out/ contains the old file
+    EXPECT_EQ(again.exit_code, 4) << again.err;  // out/ contains the old output
     fs::remove_all(folder.path("out"));
     ASSERT_EQ(runTool(folder, "generate in -q --all -o out/ --manifest m.jsonl --resume").exit_code, 0);
     const std::string second = folder.read("m.jsonl");
@@ -193,7 +196,7 @@ TEST(Reports, UnwritableReportsAffectNothingElse) {
     folder.write("a.gltf", triangle("a.bin"));
     folder.write("file", "");
     ASSERT_EQ(runTool(folder, "generate a.gltf -q --all -o a.glb").exit_code, 0);
-    // A folder that cannot be created represents all possible errors.
+    // The errors are represented by a folder that cannot be created.
     const std::string bake = "bake a.glb --high a.glb -q --size 4 ";
     struct Case {
         std::string command;
@@ -232,7 +235,7 @@ TEST(Reports, UnwritableReportsAffectNothingElse) {
 }
 
 TEST(OneRun, WritesNoTwoFilesOfOneName) {
-    // a copies shared.bin; c.glb is split into shared.gltf and its own shared.bin.
+    // a.gltf requires a copy of its shared.bin. shared.glb is split into shared.gltf and another shared.bin.
     for (const char* order : {"p/a.gltf q/shared.glb", "q/shared.glb p/a.gltf"}) {
         const TempFolder folder;
         folder.write("p/shared.bin", triangleBytes());
@@ -242,7 +245,7 @@ TEST(OneRun, WritesNoTwoFilesOfOneName) {
         ASSERT_EQ(runTool(folder, "generate q/c.gltf --all -q -o q/shared.glb").exit_code, 0);
         for (const bool is_there : {false, true}) {
             fs::remove_all(folder.path("o"));
-            if (is_there) folder.write("o/shared.bin", triangleBytes());  // same content as in p
+            if (is_there) folder.write("o/shared.bin", triangleBytes());  // the same contents as p/shared.bin
             const ToolRun run = runTool(folder, std::string("generate -q -o o/ --container gltf --jobs 1 ") + order);
             EXPECT_EQ(run.exit_code, 4) << order << is_there << run.err;
             EXPECT_EQ(run.errorLines(), 1) << run.err;
@@ -262,7 +265,7 @@ TEST(OneRun, ChangesUnsharedFilesInPlace) {
         const TempFolder folder;
         folder.write("x.bin", triangleBytes());
         folder.write("x.gltf", triangle("x.bin"));
-        // Both refer to a.tspace.bin, which is the buffer name of a new a.gltf.
+        // Both models refer to a.tspace.bin, which is also the name of the buffer that a new a.gltf gets.
         ASSERT_EQ(runTool(folder, "generate x.gltf -q --all -o a.gltf").exit_code, 0);
         ASSERT_TRUE(folder.has("a.tspace.bin"));
         folder.write("b.gltf", folder.read("a.gltf"));
@@ -273,7 +276,7 @@ TEST(OneRun, ChangesUnsharedFilesInPlace) {
         if (treeOf(folder).at("a.tspace.bin") != before.at("a.tspace.bin")) {
             EXPECT_EQ(run.exit_code, 4) << order << run.err;
         }
-        // Both match their buffer: the reader finds the data that the JSON declares.
+        // Both models match their buffers: all data that the JSON declares can be read.
         for (const char* model : {"a.gltf", "b.gltf"}) {
             const ToolRun check = runTool(folder, std::string("check -q ") + model);
             EXPECT_LE(check.exit_code, 1) << order << model << check.err;
@@ -317,7 +320,7 @@ TEST(ReferencedFiles, AreInputsEvenIfTheyAreNotRead) {
         EXPECT_NE(run.err.find("it is an input"), std::string::npos) << command << run.err;
         EXPECT_TRUE(treeOf(folder) == before) << command;
     }
-    // A missing file can be created: a model may refer to the map that is to be baked for it.
+    // A file that does not exist yet may be written: a model may refer to the map that is to be baked for it.
     folder.write("c.gltf", triangle("a.bin", "new.png"));
     EXPECT_EQ(runTool(folder, "bake c.gltf --high b.glb -q --size 4 -o new.png").exit_code, 0);
 }
@@ -338,16 +341,16 @@ TEST(ReferencedFiles, MayBeReplacedByABakeThatDoesNotReadThem) {
         EXPECT_EQ(run.exit_code, 0) << command << run.err;
         EXPECT_EQ(folder.read("named.png"), folder.read("fresh.png")) << command;
     }
-    // Again over the map that was baked.
+    // Bake again over the map that was baked before.
     EXPECT_EQ(runTool(folder, "bake a.gltf --high b.glb -q --ignore-high-maps --size 4 -o named.png").exit_code, 0);
     EXPECT_EQ(folder.read("named.png"), folder.read("fresh.png"));
-    // No other output may replace it, not even together with a map that may.
+    // No other output may replace the file, even if the command also writes a map that may.
     for (const char* command : {"bake a.gltf --high b.glb -o n.png --report named.png",
                                 "bake a.gltf --high b.glb -o n.png --heat named.png --misses named.png",
                                 "bake a.gltf --high b.glb -o named.png --heat link.png",
                                 "bake a.gltf --high b.glb -o named.png --misses named.png",
                                 "bake a.gltf --high b.glb -o named.png --report named.png",
-                                // The written model copies its images.
+                                // Writing a model copies its images.
                                 "bake a.gltf --high b.glb -o named.png --out-mesh new/new.gltf"}) {
         folder.write("named.png", folder.read("bump.png"));
         const ToolRun run = runTool(folder, command + std::string(" -q --size 4"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Outputs whose path already exists: inputs, links, pipes, devices; and programs without standard descriptors.
+// Outputs whose paths already exist as inputs, links, pipes or devices; and programs without standard file descriptors.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Writes plain.glb, made.glb, and separate.gltf with separate.bin and bump.png.
+/// Writes plain.glb and made.glb, and separate.gltf with separate.bin and bump.png.
 void writeModels(const TempFolder& folder) {
     writeFoldedObj(folder, "folded.obj");
     writeBumpMap(folder);
@@ -105,7 +105,7 @@ TEST(Outputs, AReportNeverReplacesAnInputOfTheBake) {
 
 TEST(Outputs, OfParallelModelsKeepTheirOwnBuffers) {
     const TempFolder folder;
-    // Two triangles that differ only in their buffers, which have the same name.
+    // Two triangles that differ only in the contents of their buffers, whose files have the same name.
     for (const auto& [name, byte] : {std::pair("p/a.gltf", '\x3f'), std::pair("q/b.gltf", '\x40')}) {
         std::string buffer(36, '\0');
         buffer[15] = buffer[31] = byte;
@@ -153,7 +153,7 @@ TEST(Outputs, WithDerivedNamesReplaceNoReportAndNoManifest) {
     struct Case {
         const char* command;
         const char* kept;
-        const char* other;  ///< output that must then not be written
+        const char* other;  ///< output that must not be written in this case
     };
     for (const Case& one : {Case{"generate plain.glb -o m.gltf --manifest m.bin", "m.bin", "m.gltf"},
                             Case{"generate folded.obj -o m.gltf --manifest m.bin", "m.bin", "m.gltf"}}) {
@@ -252,7 +252,7 @@ TEST(Outputs, AreWrittenToPipesAndDevicesWithoutReplacingThem) {
         EXPECT_EQ(folder.read("got").substr(0, std::string(one.begin).size()), one.begin) << one.command;
     }
     EXPECT_EQ(runTool(folder, "generate plain.glb -o pipe --container gltf").exit_code, 2);
-    // Links in /proc, whose text is not a path.
+    // Process substitution passes links in /proc whose text is not a path.
     for (const char* option : {"check plain.glb --html", "check plain.glb --sarif",
                                "bake plain.glb --high made.glb --size 16 -o n.png --report"}) {
         const ToolRun substituted =
@@ -266,7 +266,7 @@ TEST(Outputs, AreWrittenToPipesAndDevicesWithoutReplacingThem) {
         EXPECT_TRUE(folder.read("got").starts_with("<!doctype html>") || folder.read("got").starts_with("{")) << option;
         fs::remove(folder.path("got"));
     }
-    // Like /dev/null, which must never be replaced.
+    // A device like /dev/null, which must never be replaced by a file.
     if (mknod(folder.path("null").c_str(), S_IFCHR | 0600, makedev(1, 3)) != 0) GTEST_SKIP() << "no device can be made";
     fs::create_symlink("null", folder.path("null.png"));
     for (const char* command : {"check plain.glb --html null --sarif null", "render plain.glb -o null.png",
@@ -318,7 +318,7 @@ TEST(Outputs, AreTheSameWithoutWaitingForTheDisk) {
 TEST(Names, WithBidirectionalControlsAreEscaped) {
     const TempFolder folder;
     writeModels(folder);
-    // A right-to-left override, a line separator, an isolate; a Persian word keeps its joiner.
+    // A right-to-left override, a line separator and an isolate are escaped. A joiner in a Persian word is kept.
     for (const std::string name : {"a\xe2\x80\xae"
                                    "blg.glb",
                                    "a\xe2\x80\xa8"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Man pages and completions: shells and man can read them, and they contain the same options as --help.
+// Man pages and shell completions: the programs can read them, and they contain the same options as --help.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -19,7 +19,7 @@ bool isThere(const std::string& program) {
     return std::system(("command -v " + program + " > /dev/null").c_str()) == 0;
 }
 
-/// Returns the exit code and the output of a shell command on both streams.
+/// Returns the exit code of a shell command, and its output on stdout and stderr.
 std::pair<int, std::string> outputOf(const TempFolder& folder, const std::string& command) {
     const TempFolder scratch;
     const std::string file = (scratch.path() / "out").string();
@@ -28,7 +28,7 @@ std::pair<int, std::string> outputOf(const TempFolder& folder, const std::string
     return {WEXITSTATUS(status), scratch.read("out")};
 }
 
-/// Returns bash's completions for the last of the words.
+/// Returns the completions that bash offers for the last of the words.
 std::set<std::string> offered(const TempFolder& folder, const std::string& words) {
     const std::string script = "source " + kBash + "; COMP_WORDS=(" + words +
                                "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _tspace; printf '%s\n' \"${COMPREPLY[@]}\"";
@@ -100,7 +100,7 @@ TEST(ManPages, AreReadWithoutAWarning) {
     for (const auto& page : std::filesystem::directory_iterator(kPages + "/man/man1")) pages.push_back(page.path());
     EXPECT_GE(pages.size(), 16U);
     for (const std::string& file : pages) {
-        // mandoc also requires a date, but is rarely installed.
+        // mandoc would also require a date, but it is rarely installed.
         EXPECT_EQ(outputOf(folder, "grep -qE '^[.]TH [^ ]+ 1 [0-9]{4}-[0-9]{2}-[0-9]{2} ' " + file).first, 0) << file;
         const auto [code, warnings] = outputOf(folder, "groff -man -ww -Tutf8 -rLL=80n " + file + " > page");
         EXPECT_EQ(code, 0) << file;

@@ -9,7 +9,7 @@
 namespace tspace::test {
 namespace {
 
-/// Writes folded.obj, and plain.glb converted from it without tangents.
+/// Writes folded.obj, and plain.glb, which is converted from it and has the tangents of the convention opengl.
 void writePlain(const TempFolder& folder) {
     writeFoldedObj(folder, "folded.obj");
     writeBumpMap(folder);
@@ -39,12 +39,12 @@ TEST(Pipe, GivesTheBytesOfAFile) {
 TEST(Pipe, IsReadByTheCommandsThatOnlyRead) {
     const TempFolder folder;
     writePlain(folder);
-    std::filesystem::remove(folder.path() / "bump.png");  // not available for a model in a pipe
+    std::filesystem::remove(folder.path() / "bump.png");  // because a model in a pipe has no folder with other files
     for (const std::string command : {"inspect", "check", "identify"}) {
         const ToolRun named = runTool(folder, command + " plain.glb");
         const ToolRun piped = runTool(folder, command + " -", "cat plain.glb |");
         EXPECT_EQ(piped.exit_code, named.exit_code) << piped.err;
-        if (command == "check") {  // distinguishes a missing map from one that cannot be searched for
+        if (command == "check") {  // reports whether a map does not exist, or cannot be searched for
             EXPECT_NE(named.out.find("it does not exist"), std::string::npos) << named.out;
             EXPECT_EQ(piped.out.find("it does not exist"), std::string::npos) << piped.out;
             continue;

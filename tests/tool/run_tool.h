@@ -25,7 +25,7 @@ struct ToolRun {
     [[nodiscard]] long errorLines() const { return std::count(err.begin(), err.end(), '\n'); }
 };
 
-/// Runs the tool in `folder`. `arguments`: shell text; `runner`: a command that starts the tool. Fails the test if a
+/// Runs the tool in `folder`. `arguments`: shell text. `runner`: a command that starts the tool. The test fails if a
 /// report does not conform to docs/schema.
 inline ToolRun runTool(const TempFolder& folder, const std::string& arguments, const std::string& runner = "") {
     const TempFolder output;
@@ -39,7 +39,7 @@ inline ToolRun runTool(const TempFolder& folder, const std::string& arguments, c
     return run;
 }
 
-/// A runner whose standard output cannot be written.
+/// A runner with a standard output to which nothing can be written.
 inline constexpr const char* kIntoFullDisk = R"(sh -c '"$0" "$@" > /dev/full')";
 
 /// Returns the options that the help of a command lists, without their values.
@@ -54,7 +54,7 @@ inline std::set<std::string> optionsInHelp(const std::string& command) {
     return names;
 }
 
-/// One pixel of a flat normal map.
+/// A PNG of one pixel: a flat normal map.
 inline constexpr std::uint8_t kFlatPng[] = {
     0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
     0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00, 0x00, 0x90, 0x77, 0x53, 0xde, 0x00, 0x00, 0x00,
@@ -64,7 +64,7 @@ inline constexpr std::uint8_t kFlatPng[] = {
 /// Writes the normal map that the folded model references.
 inline void writeBumpMap(const TempFolder& folder) { folder.write("bump.png", kFlatPng); }
 
-/// Writes two quads that meet at an edge, with UVs; the material has a normal map.
+/// Writes two quads that meet at an edge, with UVs and a material that has a normal map.
 inline std::string writeFoldedObj(const TempFolder& folder, const std::string& name) {
     folder.write((std::filesystem::path(name).parent_path() / "folded.mtl").string(),
                  "newmtl skin\nmap_Bump bump.png\n");

@@ -99,7 +99,7 @@ class SarifSchema {
            {"message", "message"},
            {"locations", "[location]"},
            {"properties", "any object"}}}},
-        {"message", {{"text"}, {{"text", "text"}}}},  // or an id, which tspace does not use
+        {"message", {{"text"}, {{"text", "text"}}}},  // instead of a text, an id is allowed, which tspace does not use
         {"location", {{}, {{"physicalLocation", "physicalLocation"}, {"logicalLocations", "{logicalLocation}"}}}},
         {"physicalLocation", {{"artifactLocation"}, {{"artifactLocation", "artifactLocation"}, {"region", "region"}}}},
         {"artifactLocation", {{}, {{"uri", "uri-reference"}, {"uriBaseId", "text"}}}},

@@ -18,13 +18,13 @@
 
 namespace tspace::test {
 
-/// Starts the tool in `folder`, with all signals at their defaults and no output. `variables`: its environment.
+/// Starts the tool in `folder`, with default actions for all signals and without output. `variables`: its environment.
 class StartedTool {
   public:
     StartedTool(const std::filesystem::path& folder, std::vector<std::string> arguments,
                 std::vector<std::string> variables = {}) {
         arguments.insert(arguments.begin(), TSPACE_TOOL);
-        // Tests may run under nohup, and the tool preserves ignored signals.
+        // Tests may run under nohup, and the tool inherits ignored signals.
         posix_spawnattr_t attributes;
         sigset_t all;
         sigfillset(&all);
@@ -52,7 +52,7 @@ class StartedTool {
 
     void send(int signal) const { kill(process_, signal); }
 
-    /// Waits for the end. Returns the exit code, or 128 plus the signal that ended it.
+    /// Waits until the process ends. Returns its exit code, or 128 plus the number of the signal that ended it.
     int end() {
         int status = 0;
         while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
@@ -61,7 +61,7 @@ class StartedTool {
         return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
     }
 
-    /// Sends a signal and waits. Returns the exit code and the seconds until the process ended.
+    /// Sends a signal and waits until the process ends. Returns its exit code, and the time in seconds that it took.
     std::pair<int, double> endBy(int signal) {
         const auto start = std::chrono::steady_clock::now();
         send(signal);

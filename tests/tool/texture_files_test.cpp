@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// KTX2 and DDS in the commands that read images: the results equal those for a PNG with the same values.
+// KTX2 and DDS files in the commands that read images: results equal those for a PNG with the same values.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Writes a flat square that uses `map`, in front of bumps.
+/// Writes a flat square whose material uses `map`, and a high poly with bumps behind it.
 void writeModels(const TempFolder& folder, const std::string& map) {
     folder.write("low.mtl", "newmtl skin\nnorm " + map + "\n");
     folder.write("low.obj",
@@ -40,7 +40,7 @@ void writeModels(const TempFolder& folder, const std::string& map) {
     folder.write("high.obj", high);
 }
 
-/// Writes a map as PNG, and its x and y as textures.
+/// Writes a map as a PNG, and its x and y as textures.
 void writeMaps(const TempFolder& folder) {
     const RgbImage map = normalMapOf(64, bumps);
     const std::string data = redAndGreen(map);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// TGA in the commands that read images: the results equal those for a PNG with the same values. glTF does not support
+// TGA files in the commands that read images: results equal those for a PNG with the same values. glTF does not support
 // TGA.
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 
 std::string textOf(const std::vector<std::uint8_t>& bytes) { return {bytes.begin(), bytes.end()}; }
 
-/// A square without tangents, and normal maps of bumps whose green points down.
+/// Tests with a square without tangents, and with normal maps of bumps whose green points down, as PNG and TGA.
 class TgaFiles : public testing::Test {
   protected:
     TgaFiles() {
@@ -34,7 +34,7 @@ class TgaFiles : public testing::Test {
         }
     }
 
-    /// Names of findings.
+    /// Returns the names of the findings of a model.
     std::vector<std::string> findingsOf(const std::string& model) {
         const ToolRun run = runTool(folder, "check --json " + model);
         const Json report = Json::parse(run.out);

@@ -302,7 +302,7 @@ TEST(Usage, HelpOfGenerateNamesEveryOptionUnitAndDefault) {
     }
 }
 
-/// Returns pairs of an option's long name and the default stated in the help of a command.
+/// Returns pairs of an option's long name and the default that the help of a command states for it.
 std::vector<std::pair<std::string, std::string>> defaultsInHelp(const std::string& command) {
     std::vector<std::pair<std::string, std::string>> found;
     std::istringstream lines(runTool(TempFolder(), command + " --help").out);

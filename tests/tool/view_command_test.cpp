@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// tspace view: one file with the page and a model. The page must be next to the tool, so the tool is copied.
+// tspace view: writes one file with the page and a model. The tool searches for the page near itself, so the tool is
+// copied.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -12,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder with an installed tool, and the page if it was built.
+/// A folder with an installed tool. `page`: contents of the page; empty if it was not built.
 class Installed {
   public:
     explicit Installed(const std::string& page) {
@@ -22,7 +23,7 @@ class Installed {
         writeFoldedObj(folder_, "a.obj");
         writeBumpMap(folder_);
     }
-    /// Runs the copy instead of the built tool.
+    /// Runs the copy of the tool.
     [[nodiscard]] ToolRun run(const std::string& arguments) const {
         return runTool(folder_, arguments, R"(sh -c 'exec ./bin/tspace "$@"')");
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Avatars: a .vrm is a GLB with a different extension.
+// Avatars: a .vrm file is a GLB with another extension.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace tspace::test {
 namespace {
 
-/// The extension, formatted differently from the output of any JSON writer.
+/// An extension in JSON that is formatted unlike the output of any JSON writer, to test that its text is preserved.
 constexpr const char* kAvatar =
     R"("VRMC_vrm":{"specVersion":"1.0","expressions":{"preset":{"blink":{"morphTargetBinds":[{"node":0,"index":3,"weight":1.0}]}}},"humanoid":{"humanBones":{}}})";
 
@@ -30,7 +30,7 @@ std::uint32_t wordAt(const std::string& bytes, std::size_t place) {
 
 std::string jsonOf(const std::string& glb) { return glb.substr(20, wordAt(glb, 12)); }
 
-/// Writes an avatar that lacks required tangents.
+/// Writes an avatar that lacks tangents, although its material needs them.
 void writeAvatar(const TempFolder& folder, const std::string& name) {
     writeFoldedObj(folder, "made/folded.obj");
     folder.write("made/bump.png", kFlatPng);
@@ -89,7 +89,7 @@ TEST(Vrm, ItsExtensionsStayByteForByte) {
     EXPECT_NE(jsonOf(folder.read("out.vrm")).find(kAvatar), std::string::npos) << jsonOf(folder.read("out.vrm"));
 }
 
-/// VRM 0.x describes materials at the root, by texture indices, and its readers use only these.
+/// VRM 0.x describes materials at the root of the file, with indices of textures. Its readers use only these.
 TEST(Vrm, OfVersion0ShowsTheMapThatWasBaked) {
     for (const bool shares_texture : {false, true}) {
         const TempFolder folder;
@@ -114,7 +114,7 @@ TEST(Vrm, OfVersion0ShowsTheMapThatWasBaked) {
         const auto& shown = after["extensions"]["VRM"]["materialProperties"][0];
         EXPECT_EQ(shown["textureProperties"]["_BumpMap"], after["materials"][0]["normalTexture"]["index"]);
         EXPECT_EQ(shown["keywordMap"]["_NORMALMAP"], true);
-        // Textures used by other properties are preserved.
+        // A texture that other properties use is preserved.
         if (shares_texture) {
             EXPECT_NE(shown["textureProperties"]["_MainTex"], shown["textureProperties"]["_BumpMap"]);
             EXPECT_EQ(shown["textureProperties"]["_MainTex"], old);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Frame mathematics from C: every function once, on values that can be checked by hand. */
+/* Functions on single frames from C: each is called once, with values that can be checked by hand. */
 #include "tspace/tspace.h"
 
 #include "c_check.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Tangents of many meshes in one call, from C: reports, an error per job, and the code of the call. */
+/* Tangents of many meshes by one call from C: reports, an error per job, and the error code of the call. */
 #include "tspace/tspace.h"
 
 #include "c_check.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Uses the two files in C: prints the bits of all methods on a bumpy plane with a mirrored half, of normals, packed
- * frames, and an indexed mesh. */
+/* Uses the two files of tspace in C. Prints the bits of the tangents of all methods on a bumpy plane with a mirrored
+ * half, and those of normals, packed frames and an indexed mesh. */
 #include <math.h>
 #include <stdio.h>
 
