@@ -33,7 +33,7 @@ class Shading {
     /// Returns the mean angle between the exact directions and those of interpolated frames, as in shaders: N and T not
     /// normalized, B = sign * cross(N, T), and only the result normalized.
     [[nodiscard]] double meanError(const Frames& frames) const { return meanError(frames, mesh_.normals); }
-    /// Like meanError, with other normals, one per vertex.
+    /// Returns the mean error as meanError above does, but with these normals, one per vertex.
     [[nodiscard]] double meanError(const Frames& frames, const std::vector<Vec3>& normals) const;
     /// Returns the mean error of interpolated normals, as with a flat map.
     [[nodiscard]] double meanNormalError(const std::vector<Vec3>& normals) const;

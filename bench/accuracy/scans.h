@@ -60,7 +60,7 @@ Scan decimated(const Scan& scan, double share);
 std::vector<Scan> drawnMeshes(bool is_sharp);
 
 /// Returns the mean angle, in degrees, between normals as interpolated by shaders and normals of the shape, at points
-/// distributed by area. normals: one per corner
+/// distributed by area. `normals`: one per corner.
 double shadedError(const Scan& scan, const std::vector<Vec3>& normals, int points, Random random);
 
 }  // namespace tspace::accuracy

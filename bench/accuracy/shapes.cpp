@@ -96,7 +96,7 @@ double ripples(const DVec3& at) {
     const auto [z_sine, z_cosine] = sineCosine(7 * p.z);
     return 0.7 * (length(p) - 0.72 + 0.05 * (x_sine * y_cosine + y_sine * z_cosine + z_sine * x_cosine));
 }
-/// Two intersecting rings.
+/// Returns the signed distance to two intersecting rings.
 double links(const DVec3& at) {
     const DVec3 p = turned(at), q = p - DVec3{0.25, 0, 0}, r = p + DVec3{0.3, 0, 0};
     return blend(radiusOf(radiusOf(q.x, q.y) - 0.45, q.z) - 0.17, radiusOf(radiusOf(r.x, r.z) - 0.4, r.y) - 0.13, 0.08);

@@ -122,7 +122,7 @@ class Runner {
         if (!is_flat) measureNormals(mesh, record, shading ? &*shading : nullptr);  // they would be exact
     }
 
-    /// `shading`: null if shading is not to be measured.
+    /// Measures all weightings. `shading`: null if shading is not to be measured.
     void measureNormals(const TestMesh& mesh, const Record& of, const Shading* shading) {
         for (const NamedWeighting& weighting : weightings()) {
             const std::vector<Vec3> normals = normalsBy(weighting.weighting, mesh, weighting.refine);

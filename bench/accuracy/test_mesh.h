@@ -16,7 +16,7 @@ struct TestMesh {
     std::vector<Vec3> positions, normals;
     std::vector<Vec2> uvs;
     std::vector<std::uint32_t> indices;  ///< triangles
-    // One per vertex:
+    // Arrays with one entry per vertex:
     std::vector<ExactFrame> frames;
     std::vector<double> s, t;
     std::vector<std::int8_t> sides;       ///< side of the fold (mirrored seam); vertices on it exist once per side

@@ -139,7 +139,7 @@ def rib(size, at):
 
 
 def ribs():
-    """Separate shells that are partly inside the base mesh."""
+    """Creates separate shells that are partly inside the base mesh."""
     top = [rib((0.1, 1.0, 0.1), (x, 0, 0.5)) for x in (-0.6, -0.3, 0, 0.3, 0.6)]
     side = [rib((1.4, 0.08, 0.08), (0, -0.7, z)) for z in (-0.25, 0, 0.25)]
     return top + side + [rib((0.09, 0.9, 0.6), (1, 0, 0))]

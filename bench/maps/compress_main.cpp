@@ -249,8 +249,8 @@ class LevelShading {
         return {std::sqrt(off[0] / all), std::sqrt(off[1] / all)};
     }
 
-    /// Compares, for both roughnesses, the angle that contains half of the energy of the lobe of half vectors with the
-    /// true angle. Returns the absolute values of the logarithms of their ratios.
+    /// Returns, for both roughnesses, the absolute value of the logarithm of the ratio of two angles: the angle that
+    /// contains half of the energy of the lobe of half vectors, according to the roughness, and the true one.
     std::array<double, 2> widths() {
         constexpr std::size_t kSamples = 2001;
         std::vector<double> angles;

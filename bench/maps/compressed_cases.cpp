@@ -29,7 +29,7 @@ class ValueNoise {
     ValueNoise(std::size_t cells, Random& random) : cells_(cells), values_(cells * cells) {
         for (double& value : values_) value = random.around(1);
     }
-    /// x, y: in cells.
+    /// Returns the interpolated value at a position. x, y: in cells.
     double operator()(double x, double y) const {
         const double left = std::floor(x), top = std::floor(y);
         const auto smooth = [](double t) { return t * t * (3 - 2 * t); };

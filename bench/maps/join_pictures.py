@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Joins pictures side by side, for docs/guides/compress-map.md. Needs numpy.
 
-python3 join_pictures.py OUT.png SIZE PICTURE...: each is scaled to SIZE x SIZE: down by means
-of linear light, up by repeating texels
+python3 join_pictures.py OUT.png SIZE PICTURE...: each picture is scaled to SIZE x SIZE, by averaging
+linear light if it is larger, and by repeating texels if it is smaller
 """
 
 import struct

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Uses the file API from C with models in memory, and reads reports. argv[1]: a .gltf file that references other files. */
+/* Uses the file API from C with models in memory and reports. argv[1]: a .gltf file that references other files. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -36,7 +36,7 @@ def write(path, numbers):
 
 
 def compare(name, numbers, pixels):
-    """`pixels`: red and green of each pixel, starting with the top row."""
+    """Compares pixels with the map. `pixels`: red and green of each pixel, starting with the top row."""
     with open(numbers, "rb") as file:
         wanted = file.read()
     if len(pixels) != WIDTH * HEIGHT:

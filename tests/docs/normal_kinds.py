@@ -240,7 +240,7 @@ def decimated(points, quads, share):
 
 
 def turned_torus():
-    """Returns triangles with wrong winding in some spots."""
+    """Returns a torus in which the triangles of some spots have the wrong winding."""
     columns, rows = 64, 28
     points, faces = [], []
     for i in range(columns):

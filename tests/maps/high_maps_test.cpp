@@ -18,7 +18,7 @@ struct Square {
     std::vector<Vec2> uvs = {};
     std::vector<std::uint32_t> corners = {0, 1, 2, 3, 4, 5};
 
-    /// u increases along x, and v against y; with `is_turned`, u increases along y, and v along x.
+    /// Creates the square. u increases along x, and v against y; with `is_turned`, u increases along y, and v along x.
     explicit Square(bool is_turned = false, float left = 0) {
         for (const Vec2& at : {Vec2{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}}) {
             positions.push_back({left + at.x, at.y, 0});

@@ -469,7 +469,7 @@ TEST(MorphNormals, NormalsTurnAsTheSurfaceDoes) {
             EXPECT_EQ(findAttribute(made.primitives[0].targets[0], "NORMAL").has_value(), with_offsets || is_new);
             if (!is_new) continue;
             for (const auto& [place, normals] : made.normals(0, 0)) {
-                const float x = std::clamp(place[0], 1.0f / 32, 31.0f / 32);  // the border is one-sided
+                const float x = std::clamp(place[0], 1.0f / 32, 31.0f / 32);  // the border has faces on one side only
                 const Vec3 expected{-std::sin(x) * std::cos(tilt), std::sin(tilt), std::cos(x) * std::cos(tilt)};
                 EXPECT_LT(degreesBetween(normals[0], expected), 0.2) << place[0];
             }

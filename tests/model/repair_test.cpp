@@ -94,7 +94,7 @@ TEST(Repair, ReplacesWrongSignsAndDirections) {
 }
 
 TEST(Repair, ReplacesInvalidValuesEvenAtOneVertex) {
-    Model model(gridModel(Grid(40)));  // so large that one vertex is less than 0.1 % of it
+    Model model(gridModel(Grid(40)));  // one of its vertices is less than 0.1 % of all
     const auto at_one = [](const Vec4& value) {
         return [value](std::size_t i, Vec4& t) {
             if (i == 700) t = value;

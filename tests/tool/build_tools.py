@@ -57,7 +57,7 @@ def rebuilt(build, outputs):
 
 
 def try_build(name, build, output):
-    """The first build creates everything, the second nothing; then each input file that changes causes a build."""
+    """Checks that the first build creates everything, the second one nothing, and each changed input causes a build."""
     for source in (odd, "skin.mtl"):
         os.utime(source, (time.time() - 10, time.time() - 10))
     done = subprocess.run(build, capture_output=True, text=True)

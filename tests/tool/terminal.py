@@ -71,7 +71,7 @@ subprocess.run([tool, "generate", "-q", "--all", "large.obj", "-o", "large.glb"]
 
 
 def lines_of(text):
-    """Returns the states of the status line: each begins at the start of a line and is erased."""
+    """Returns the lines of an output, and the states of the status line, each of which was erased by the next one."""
     return [line for line in re.split(r"\r\x1b\[K|\r?\n", text) if line]
 
 

@@ -99,7 +99,7 @@ TEST(Tessellations, FlipNoTriangleAndSeparateTheSidesOfAFold) {
     }
 }
 
-/// A plane whose texture is uniformly rotated, stretched and sheared.
+/// Returns a point of a plane whose texture is uniformly rotated, stretched and sheared.
 SurfacePoint affine(const Dual& s, const Dual& t, int) {
     return {{s, 2 * t, 0.5 * s - t}, {0.3 * s + 1.1 * t + 0.2, 0.4 * t - 0.9 * s}};
 }

@@ -44,7 +44,7 @@ void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std
 
 namespace {
 
-/// A strip of squares.
+/// The following callbacks describe a strip of squares.
 int numFaces(const SMikkTSpaceContext*) { return 10; }
 int numVertices(const SMikkTSpaceContext*, const int) { return 4; }
 void getPosition(const SMikkTSpaceContext*, float out[], const int face, const int vertex) {

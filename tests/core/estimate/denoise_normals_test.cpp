@@ -41,7 +41,7 @@ bool areUnit(const std::vector<Vec3>& normals) {
     return std::all_of(normals.begin(), normals.end(), [](const Vec3& n) { return std::fabs(length(n) - 1) < 1e-5f; });
 }
 
-/// A cylinder whose caps are fans from one vertex of the rim.
+/// Returns a cylinder whose caps are fans from one vertex of the rim.
 SimpleMesh cappedCylinder(std::uint32_t sides, std::uint32_t rows) {
     SimpleMesh mesh;
     for (std::uint32_t row = 0; row <= rows; ++row) {

@@ -45,7 +45,7 @@ struct Scene {
     }
 };
 
-/// Two triangles that share an edge; all frames are valid.
+/// Returns two triangles that share an edge. All of their frames are valid.
 Scene twoTriangles() {
     return {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
             .normals = {4, Vec3{0, 0, 1}},

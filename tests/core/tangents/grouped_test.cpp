@@ -29,7 +29,7 @@ Outputs generate(const SimpleMesh& shape, const TangentOptions& options = {.conv
     return outputs;
 }
 
-/// A unit square in the xy plane whose UVs are its positions.
+/// Returns a unit square in the xy plane whose UVs are its positions.
 SimpleMesh square() {
     SimpleMesh shape;
     for (const Vec2 uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}}) shape.addVertex({uv.x, uv.y, 0}, kUp, uv);

@@ -48,7 +48,7 @@ void expectNear(const Vec3& a, const Vec3& b, double tolerance = 1e-6) {
     EXPECT_NEAR(a.z, b.z, tolerance);
 }
 
-/// A unit square in z = 0 with N = +z, divided along its diagonal 0-2. UVs are (2 x, 4 y).
+/// Returns a unit square in z = 0 with N = +z, divided along its diagonal 0-2. UVs are (2 x, 4 y).
 SimpleMesh square() {
     SimpleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -59,7 +59,7 @@ SimpleMesh square() {
     return mesh;
 }
 
-/// The square with both u and v mirrored.
+/// Returns the square with both u and v mirrored.
 SimpleMesh mirroredSquare() {
     SimpleMesh mesh = square();
     for (Vec2& uv : mesh.uvs) uv.x = -uv.x;

@@ -21,8 +21,8 @@ class Dice {
 
     int below(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
     float fraction() { return static_cast<float>(random_() >> 40) / 16777216.0f; }
-    /// `kind`: 0 integers, 1 halves, 2 any number from -1 to 1, 3 numbers of any size, 4 like 2 but sometimes NaN,
-    /// infinite, 3e38 or -0.
+    /// Returns a number. `kind`: 0 integers, 1 halves, 2 any number from -1 to 1, 3 numbers of any size, 4 like 2 but
+    /// sometimes NaN, infinite, 3e38 or -0.
     float number(int kind) {
         switch (kind) {
             case 0:

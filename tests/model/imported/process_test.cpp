@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// These 58 bytes keep Assimp 5 busy for minutes.
+/// Writes 58 bytes that keep Assimp 5 busy for minutes, and returns the path.
 std::string endlessPly(const TempFolder& folder) {
     return folder.write("endless.ply", "ply\nformat ascii 1.0\nelement vertex 2147483647\nend_header\n");
 }

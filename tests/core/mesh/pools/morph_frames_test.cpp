@@ -15,7 +15,7 @@ namespace {
 using namespace test;
 using Targets = std::vector<MorphOffsets>;
 
-/// `mesh` and `targets` must outlive the result.
+/// Returns a view of the mesh with morph targets. `mesh` and `targets` must outlive it.
 PoolView withTargets(const OwnedMesh& mesh, const Targets& targets) {
     PoolView pool(mesh);
     pool.targets = {targets.size(), [&targets](std::size_t i) -> Result<MorphOffsets> { return targets[i]; }};

@@ -53,7 +53,7 @@ inline FramesOptions withMethod(Method method) {
     return options;
 }
 
-/// A square of two triangles with axis-aligned UVs.
+/// Returns a square of two triangles with axis-aligned UVs.
 inline OwnedMesh square() {
     return {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
             .normals = {4, Vec3{0, 0, 1}},
