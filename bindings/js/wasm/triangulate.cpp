@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Export of the entry "tspace" that triangulates faces.
-#include "core/frames/triangulate.h"
+#include "core/frames/face_cutter.h"
 
 #include "common.h"
 #include "core/base/mesh_loops.h"

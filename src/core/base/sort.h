@@ -76,7 +76,7 @@ void sortWithSharedCode(Iterator begin, Iterator end, const Less& less) {
 /// Sorts lists without equal elements, or in which the order of equal elements is irrelevant.
 template <class Iterator, class Less = std::less<>>
 void sortList(Iterator begin, Iterator end, const Less& less = {}) {
-#ifdef TSPACE_SMALL
+#if defined(TSPACE_SMALL) || defined(TSPACE_MIKKTSPACE_ONLY)
     sortWithSharedCode(begin, end, less);
 #else
     std::sort(begin, end, less);
@@ -86,7 +86,7 @@ void sortList(Iterator begin, Iterator end, const Less& less = {}) {
 /// Sorts stably: equal elements keep their order.
 template <class Iterator, class Less>
 void sortStably(Iterator begin, Iterator end, const Less& less) {
-#ifdef TSPACE_SMALL
+#if defined(TSPACE_SMALL) || defined(TSPACE_MIKKTSPACE_ONLY)
     sortWithSharedCode(begin, end, less);
 #else
     std::stable_sort(begin, end, less);

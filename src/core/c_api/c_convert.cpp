@@ -124,51 +124,6 @@ Execution Hooks::execution() const {
 
 using namespace tspace::c_api;  // NOLINT: for the functions of the C API
 
-namespace {
-
-/// Initializes options for languages without macros: writes the defaults of the fields that the caller's struct has.
-template <class Struct>
-tspace_ErrorCode init(Struct* options, std::uint32_t struct_size, const char* name, tspace_Error* error) noexcept {
-    return atCBorder(error, [&]() -> tspace::Result<tspace::Done> {
-        if (options == nullptr)
-            return tspace::makeError(tspace::ErrorCode::nullData, tspace::kNoElement, "%s is null", name);
-        if (tspace::Error e = checkStructSize(struct_size, kSizes<Struct>, name); e.code != tspace::ErrorCode::ok)
-            return e;
-        Struct whole;
-        TSPACE_INIT(whole);
-        whole.struct_size = struct_size;
-        std::memcpy(options, &whole, struct_size);
-        return tspace::Done{};
-    });
-}
-
-}  // namespace
-
 tspace_ErrorCode tspace_initExecution(tspace_Execution* execution, uint32_t struct_size, tspace_Error* error) noexcept {
     return init(execution, struct_size, "execution", error);
-}
-
-tspace_ErrorCode tspace_initTangentOptions(tspace_TangentOptions* options, uint32_t struct_size,
-                                           tspace_Error* error) noexcept {
-    return init(options, struct_size, "options", error);
-}
-
-tspace_ErrorCode tspace_initNormalOptions(tspace_NormalOptions* options, uint32_t struct_size,
-                                          tspace_Error* error) noexcept {
-    return init(options, struct_size, "options", error);
-}
-
-tspace_ErrorCode tspace_initWindingOptions(tspace_WindingOptions* options, uint32_t struct_size,
-                                           tspace_Error* error) noexcept {
-    return init(options, struct_size, "options", error);
-}
-
-tspace_ErrorCode tspace_initSanitizeOptions(tspace_SanitizeOptions* options, uint32_t struct_size,
-                                            tspace_Error* error) noexcept {
-    return init(options, struct_size, "options", error);
-}
-
-tspace_ErrorCode tspace_initIndexedFramesOptions(tspace_IndexedFramesOptions* options, uint32_t struct_size,
-                                                 tspace_Error* error) noexcept {
-    return init(options, struct_size, "options", error);
 }

@@ -94,6 +94,21 @@ Struct givenOrDefault(const Struct* given) {
     return whole;
 }
 
+/// Initializes a struct for languages without macros: writes the defaults of the fields that the caller's version of it
+/// has.
+template <class Struct>
+tspace_ErrorCode init(Struct* options, std::uint32_t struct_size, const char* name, tspace_Error* error) noexcept {
+    return atCBorder(error, [&]() -> Result<Done> {
+        if (options == nullptr) return makeError(ErrorCode::nullData, kNoElement, "%s is null", name);
+        if (Error e = checkStructSize(struct_size, kSizes<Struct>, name); e.code != ErrorCode::ok) return e;
+        Struct whole;
+        TSPACE_INIT(whole);
+        whole.struct_size = struct_size;
+        std::memcpy(options, &whole, struct_size);
+        return Done{};
+    });
+}
+
 /// Copies a report to the caller's struct: only the fields that the caller's version of the struct has.
 template <class Struct>
 void writeReport(Struct report, Struct* to) {
@@ -148,6 +163,7 @@ Error checkOptions(const tspace_NormalOptions* given);
 NormalOptions toOptions(const tspace_NormalOptions& options);
 Error checkOptions(const tspace_TangentOptions* given);
 TangentOptions toOptions(const tspace_TangentOptions& options);
+TangentOutput toOutput(const tspace_TangentOutput& given);
 Result<std::vector<CornerAttribute>> toAttributes(const tspace_CornerAttribute* attributes, std::size_t count,
                                                   const char* name);
 

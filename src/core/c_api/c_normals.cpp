@@ -36,6 +36,16 @@ NormalOptions toOptions(const tspace_NormalOptions& options) {
 
 }  // namespace tspace::c_api
 
+tspace_ErrorCode tspace_initNormalOptions(tspace_NormalOptions* options, uint32_t struct_size,
+                                          tspace_Error* error) noexcept {
+    return init(options, struct_size, "options", error);
+}
+
+tspace_ErrorCode tspace_initWindingOptions(tspace_WindingOptions* options, uint32_t struct_size,
+                                           tspace_Error* error) noexcept {
+    return init(options, struct_size, "options", error);
+}
+
 tspace_ErrorCode tspace_generateNormals(const tspace_Mesh* mesh, const tspace_NormalOptions* options, tspace_Span out,
                                         const tspace_Execution* execution, tspace_NormalReport* report,
                                         tspace_Error* error) noexcept {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/build_parts.h"
 #include "core/base/owned_mesh.h"
 #include "tspace/execution.h"
 #include "tspace/indexed_frames.h"
@@ -29,15 +30,8 @@ struct OneListMesh {
     OneListMesh& operator=(const OneListMesh&) = delete;
 };
 
-/// Returns whether normals or UVs have their own index list; always false with TSPACE_MIKKTSPACE_ONLY, whose caller
-/// rejects them.
-inline bool hasOwnLists([[maybe_unused]] const MeshView& mesh) {
-#ifdef TSPACE_MIKKTSPACE_ONLY
-    return false;
-#else
-    return mesh.hasOwnLists();
-#endif
-}
+/// Returns whether normals or UVs have their own index list.
+inline bool hasOwnLists(const MeshView& mesh) { return !kIsMinimal && mesh.hasOwnLists(); }
 
 /// Sets to[i] = values[sources[i]]; zero for kNoCorner, that is, for vertices that no corner uses.
 template <class T>

@@ -34,8 +34,11 @@
     TSPACE_IN_NAMESPACE(wasm, __VA_ARGS__)
 
 /// Table of a kernel's functions in this build, for simd::choose. With NOT_AVX512, the AVX2 function, which is equally
-/// fast, is used for AVX-512.
-#if defined(TSPACE_SIMD_X86)
+/// fast, is used for AVX-512. With TSPACE_MIKKTSPACE_ONLY no kernel is compiled for AVX-512.
+#if defined(TSPACE_SIMD_X86) && defined(TSPACE_MIKKTSPACE_ONLY)
+#define TSPACE_KERNEL_TABLE(function) \
+    { TSPACE_SCALAR_OR_NULL(function, sse2), sse2::function, avx2::function, avx2::function }
+#elif defined(TSPACE_SIMD_X86)
 #define TSPACE_KERNEL_TABLE(function) \
     { TSPACE_SCALAR_OR_NULL(function, sse2), sse2::function, avx2::function, avx512::function }
 #define TSPACE_KERNEL_TABLE_NOT_AVX512(function) \

@@ -1,29 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Entry points of mikktspace/, then the public functions: validation, the symmetric frame, and the choice between plans
-// with and without groups.
+// Entry points of mikktspace/, then generateTangents: validation, and the choice between methods with and without
+// groups.
 #include "core/tangents/mikktspace/evaluate.h"
 
 #include <algorithm>
-#include <memory>
 #include <utility>
-#include <variant>
-#include <vector>
 
 #include "core/base/border.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
-#include "core/base/unit_normals.h"
 #include "core/base/vec_math.h"
 #include "core/frames/one_list.h"
-#include "core/tangents/estimators/group_estimates.h"
 #include "core/tangents/indexed_methods.h"
 #include "core/tangents/method_kind.h"
 #include "core/tangents/mikktspace/groups.h"
 #include "core/tangents/mikktspace/last_bucket.h"
 #include "core/tangents/mikktspace/vertex_path.h"
 #include "core/tangents/mikktspace/weld.h"
-#include "core/tangents/mirrored_count.h"
-#include "core/tangents/plan_parts.h"
+#include "core/tangents/tangents_call.h"
 #include "tspace/tangents.h"
 
 namespace tspace::mikk {
@@ -85,7 +79,7 @@ TangentReport generateWith(const MeshView& mesh, const Call<TangentOptions>& opt
 
 TangentReport generateGrouped(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
                               Parallel& parallel) {
-    if (!kHasOnePass) return planAndEvaluate(mesh, options, out, parallel);
+    if (kIsMinimal) return planAndEvaluate(mesh, options, out, parallel);
     const std::size_t corners = mesh.cornerCount();
     if (corners > kSmallMesh) return generateWith(mesh, options, out, parallel);
     const std::size_t bytes = std::min(kLeastBlock + corners * kBytesPerCorner, kLargestBlock);
@@ -120,106 +114,12 @@ namespace tspace {
 
 namespace {
 
-/// FrameShape::symmetric: the orthonormal frame closest to dP/du and dP/dv, with equal weights. Returns the tangent of
-/// that frame, or `tangent` if one of the three vectors has no direction.
-/// Based on: Löwdin, "On the Non-Orthogonality Problem", 1950 (symmetric orthogonalization), here for two unit vectors.
-Vec3 symmetricTangent(const Vec3& tangent, const Vec3& bitangent, const Vec3& normal) {
-    DVec3 n = toDouble(normal);
-    if (!normalize(n)) return tangent;
-    const auto across = [&](const Vec3& v) { return toDouble(v) - dot(n, toDouble(v)) * n; };
-    DVec3 t = across(tangent), b = across(bitangent);
-    if (!normalize(t) || !normalize(b)) return tangent;
-    // This is perpendicular to the bitangent, on the tangent's side: the opposite direction would belong to the
-    // opposite orientation of the UVs or of N.
-    DVec3 p = cross(b, n);
-    if (dot(p, t) < 0) p = -1.0 * p;
-    DVec3 sum = t + p;
-    return normalize(sum) ? toFloat(sum) : tangent;
-}
-
-/// Rotates each tangent, in the plane perpendicular to its normal, half of the way to the direction perpendicular to
-/// the bitangent: cross(N, T) and T then both deviate by half of the UVs' shear, while T alone was exact before.
-/// normalOf(i): the normal of entry i. An entry without tangent, bitangent or normal is unchanged.
-template <class NormalOf>
-void makeSymmetric(const StridedSpan<Vec4>& tangents, const StridedSpan<Vec3>& bitangents, const NormalOf& normalOf,
-                   Parallel& parallel) {
-    parallel.forRanges(tangents.count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            Vec4& tangent = tangents[i];
-            const Vec3 turned = symmetricTangent(xyz(tangent), bitangents[i], normalOf(i));
-            tangent = {turned.x, turned.y, turned.z, tangent.w};
-        }
-    });
-}
-
-/// Memory for bitangents that the caller did not request, but that the symmetric frame needs.
-struct NeededBitangents {
-    Buffer<Vec3> own;
-    TangentOutput out;
-
-    NeededBitangents(const TangentOutput& wanted, const Allocator* allocator) : out(wanted) {
-        if (!wanted.bitangents.empty()) return;
-        own = Buffer<Vec3>(allocator, wanted.tangents.count);
-        out.bitangents = {own.data(), own.size()};
-    }
-};
-
-}  // namespace
-
-namespace {
-
-/// Adapts the report to the convention: methods count triangles with negative UV area as mirrored.
-TangentReport inConvention(TangentReport report, Method method, bool positive_is_mirrored) {
-    if (positive_is_mirrored) report.mirrored_count = notMirroredCount(report, method);
-    return report;
-}
-
-}  // namespace
-
-struct TangentPlan::State {
-    std::variant<IndexedPlan, mikk::EvaluationPlan> plan;
-    Method method = Method::mikktspace;
-    std::size_t vertex_count = 0;
-    std::size_t corner_count = 0;
-    std::size_t output_count = 0;
-    bool is_symmetric = false;
-    bool normalizes_normals = false;
-    bool positive_is_mirrored = false;
-    /// vertex of each corner, for a symmetric frame; empty: outputs are per vertex
-    Buffer<std::uint32_t> corner_vertices;
-    std::size_t normal_count = 0;  ///< number of normals in a pose
-    /// Indices of the pose's position and normal for each vertex of the plan, for a mesh with several index lists.
-    std::vector<std::uint32_t> source_vertices, source_normals;
-
-    [[nodiscard]] TangentReport evaluate(const Pose& pose, const TangentOutput& out, const Execution& execution,
-                                         Parallel& parallel) const {
-        const auto counted = [&](const TangentReport& report) {
-            return inConvention(report, method, positive_is_mirrored);
-        };
-        if (const auto* indexed = std::get_if<IndexedPlan>(&plan))
-            return counted(evaluateIndexed(*indexed, pose, out, execution, parallel));
-        const auto& grouped = *std::get_if<mikk::EvaluationPlan>(&plan);
-        return counted(
-            mikk::evaluateGroups(grouped, pose, {grouped.uvs.data(), grouped.uvs.size()}, out, execution, parallel));
-    }
-
-    /// Calls evaluate(), and applies the requested frame shape.
-    [[nodiscard]] TangentReport evaluateFrames(const Pose& pose, const TangentOutput& out, const Execution& execution,
-                                               Parallel& parallel) const {
-        if (!is_symmetric) return evaluate(pose, out, execution, parallel);
-        const NeededBitangents needed(out, execution.allocator);
-        const TangentReport report = evaluate(pose, needed.out, execution, parallel);
-        makeSymmetric(
-            out.tangents, needed.out.bitangents,
-            [&](std::size_t i) { return pose.normals[corner_vertices.empty() ? i : corner_vertices[i]]; }, parallel);
-        return report;
-    }
-};
-
-namespace {
-
 Error checkOptions(const TangentOptions& options) {
-    if (options.method > kLastMethod) {
+    if (!kHasAllMethods && options.method != Method::mikktspace) {
+        return {ErrorCode::invalidOption,
+                "this build has no other method than mikktspace: it was compiled with TSPACE_MIKKTSPACE_ONLY"};
+    }
+    if (options.method > Method::best) {
         return makeError(ErrorCode::invalidOption, kNoElement, "method is %u, which is not a value of Method",
                          static_cast<unsigned>(options.method));
     }
@@ -248,6 +148,8 @@ Error checkOptions(const TangentOptions& options) {
     return {ErrorCode::ok, {}};
 }
 
+}  // namespace
+
 Error checkInput(const MeshView& mesh, const TangentOptions& options, Parallel& parallel) {
     if (Error e = checkOptions(options); e.code != ErrorCode::ok) return e;
     if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
@@ -262,10 +164,6 @@ Error checkInput(const MeshView& mesh, const TangentOptions& options, Parallel& 
     return {ErrorCode::ok, {}};
 }
 
-std::size_t outputCount(const MeshView& mesh, const TangentOptions& options) {
-    return options.domain == OutputDomain::vertex ? mesh.vertexCount() : mesh.cornerCount();
-}
-
 Error checkOutput(const TangentOutput& out, std::size_t output_count) {
     if (Error e = checkSpan(out.tangents, output_count, "tangents"); e.code != ErrorCode::ok) return e;
     const auto optional = [&](const auto& span, const char* name) {
@@ -277,93 +175,60 @@ Error checkOutput(const TangentOutput& out, std::size_t output_count) {
     return optional(out.has_tangent, "has_tangent");
 }
 
-/// Initializes has_tangent to 1: methods clear the entries of outputs without a contributing face.
 void startHasTangent(const TangentOutput& out, Parallel& parallel) {
     parallel.forRanges(out.has_tangent.count, Parallel::kGrain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) out.has_tangent[i] = 1;
     });
 }
 
+namespace {
+
 TangentReport generateFrames(const MeshView& mesh, const Call<TangentOptions>& options, const TangentOutput& out,
                              Parallel& parallel) {
     const auto generated = [&] {
-        if (isGrouped(options.method)) return mikk::generateGrouped(mesh, options, out, parallel);
-        const IndexedPlan plan = planIndexed(mesh, options, parallel, PlanUse::once);
-        return evaluateIndexed(plan, {mesh.positions, mesh.normals}, out, options.execution, parallel);
+        if constexpr (kHasAllMethods) {
+            if (!isGrouped(options.method)) {
+                const IndexedPlan plan = planIndexed(mesh, options, parallel, PlanUse::once);
+                return evaluateIndexed(plan, {mesh.positions, mesh.normals}, out, options.execution, parallel);
+            }
+        }
+        return mikk::generateGrouped(mesh, options, out, parallel);
     };
     return inConvention(generated(), options.method, positiveUvsAreMirrored(options.convention));
 }
 
-MeshView withNormals(MeshView mesh, const UnitNormals& normals) {
-    mesh.normals = normals.view();
-    return mesh;
-}
+/// The attributes of each corner, for a mesh with several index lists: welding finds equal corners again.
+struct CornerArrays {
+    CornerArrays(const MeshView& mesh, const Allocator* allocator)
+        : positions(gathered(mesh.positions, mesh.indices, mesh, allocator)),
+          normals(gathered(mesh.normals, mesh.normal_indices, mesh, allocator)),
+          uvs(gathered(mesh.uvs, mesh.uv_indices, mesh, allocator)),
+          view{.positions = {positions.data(), positions.size()},
+               .normals = {normals.data(), normals.size()},
+               .uvs = {uvs.data(), uvs.size()},
+               .face_sizes = mesh.face_sizes,
+               .face_size = mesh.face_size} {}
 
-Error checkPose(const Pose& pose, std::size_t vertex_count, std::size_t normal_count) {
-    if (pose.positions.count != vertex_count || pose.normals.count != normal_count) {
-        return makeError(ErrorCode::planMismatch, kNoElement,
-                         "the pose has %zu positions and %zu normals, but the plan needs %zu and %zu",
-                         pose.positions.count, pose.normals.count, vertex_count, normal_count);
+    template <class T>
+    static Buffer<T> gathered(const StridedSpan<const T>& values, const IndexView& list, const MeshView& mesh,
+                              const Allocator* allocator) {
+        Buffer<T> result(allocator, values.empty() ? 0 : mesh.cornerCount());
+        for (std::size_t c = 0; c < result.size(); ++c)
+            result[c] = values[list.type == IndexType::none ? mesh.indices[c] : list[c]];
+        return result;
     }
-    if (Error e = checkSpan(pose.positions, vertex_count, "positions"); e.code != ErrorCode::ok) return e;
-    return checkSpan(pose.normals, normal_count, "normals");
-}
 
-Buffer<Vec3> gathered(const StridedSpan<const Vec3>& values, const std::vector<std::uint32_t>& sources,
-                      const Allocator* allocator) {
-    Buffer<Vec3> result(allocator, sources.size());
-    gather<Vec3>(values, sources, result.data());
-    return result;
-}
+    Buffer<Vec3> positions, normals;
+    Buffer<Vec2> uvs;
+    MeshView view;
+};
 
-/// Checks the domain for a mesh with several index lists. Its vertices are combinations that the caller does not know,
-/// so results per vertex are not possible.
+}  // namespace
+
 Error checkDomain(const TangentOptions& options) {
     if (options.domain == OutputDomain::corner) return {ErrorCode::ok, {}};
     return {ErrorCode::invalidOption, "results per vertex need a mesh with a single index list"};
 }
-
-Result<std::unique_ptr<TangentPlan::State>> makePlan(const MeshView& given, const Call<TangentOptions>& options) {
-    Parallel parallel(options.execution, tangentWork(options.method, given.cornerCount()));
-    if (Error e = checkInput(given, options, parallel); e.code != ErrorCode::ok) return e;
-    const UnitNormals normals(given.normals, options.normalize_normals, options.execution.allocator, parallel);
-    const MeshView mesh = withNormals(given, normals);
-    auto state = std::make_unique<TangentPlan::State>();
-    state->method = options.method;
-    state->normalizes_normals = options.normalize_normals;
-    state->positive_is_mirrored = positiveUvsAreMirrored(options.convention);
-    state->vertex_count = state->normal_count = mesh.vertexCount();
-    state->corner_count = mesh.cornerCount();
-    state->output_count = outputCount(mesh, options);
-    if (isGrouped(options.method))
-        state->plan = mikk::planGrouped(mesh, options, parallel);
-    else
-        state->plan = planIndexed(mesh, options, parallel);
-    state->is_symmetric = options.frame == FrameShape::symmetric;
-    if (state->is_symmetric && options.domain == OutputDomain::corner) {
-        state->corner_vertices = Buffer<std::uint32_t>(options.execution.allocator, mesh.cornerCount());
-        for (std::size_t c = 0; c < mesh.cornerCount(); ++c) state->corner_vertices[c] = mesh.indices[c];
-    }
-    return state;
-}
-
-/// Creates the plan of a mesh with several index lists: the plan of the equivalent mesh with one list, and the sources
-/// of its vertices.
-Result<std::unique_ptr<TangentPlan::State>> planLists(const MeshView& mesh, const Call<TangentOptions>& options) {
-    if (Error e = checkDomain(options); e.code != ErrorCode::ok) return e;
-    if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();
-    OneListMesh made;
-    if (Result<Done> done = useOneList(mesh, options.execution, made); !done) return std::move(done).error();
-    Result<std::unique_ptr<TangentPlan::State>> state = makePlan(made.view, options);
-    if (!state) return state;
-    (*state)->vertex_count = mesh.vertexCount();
-    (*state)->normal_count = mesh.normals.count;
-    (*state)->source_vertices = std::move(made.source_vertices);
-    (*state)->source_normals = std::move(made.source_normals);
-    return state;
-}
-
-}  // namespace
 
 const char* methodName(Method method) {
     static constexpr const char* kNames[] = {"mikktspace", "lengyel", "uniform", "angle", "area",
@@ -373,45 +238,15 @@ const char* methodName(Method method) {
     return number < std::size(kNames) ? kNames[number] : "unknown";
 }
 
-TangentPlan::TangentPlan(State* state) : state_(state) {}
-TangentPlan::TangentPlan(TangentPlan&& other) noexcept : state_(std::exchange(other.state_, nullptr)) {}
-TangentPlan& TangentPlan::operator=(TangentPlan&& other) noexcept {
-    TangentPlan taken(std::move(other));
-    std::swap(state_, taken.state_);
-    return *this;
-}
-TangentPlan::~TangentPlan() { delete state_; }
-
-const TangentPlan::State& TangentPlan::state() const {
-    static const State kMovedFrom;
-    return state_ == nullptr ? kMovedFrom : *state_;
-}
-
-PlanParts partsOf(const TangentPlan& plan) {
-    const TangentPlan::State& state = plan.state();
-    return {std::get_if<mikk::EvaluationPlan>(&state.plan), std::get_if<IndexedPlan>(&state.plan), state.is_symmetric,
-            state.normalizes_normals, !state.source_vertices.empty()};
-}
-
-std::size_t TangentPlan::vertexCount() const { return state().vertex_count; }
-std::size_t TangentPlan::cornerCount() const { return state().corner_count; }
-std::size_t TangentPlan::outputCount() const { return state().output_count; }
-Method TangentPlan::method() const { return state().method; }
-std::size_t TangentPlan::memoryBytes() const {
-    const std::size_t indices =
-        state().corner_vertices.size() + state().source_vertices.size() + state().source_normals.size();
-    return std::visit([](const auto& plan) { return plan.memoryBytes(); }, state().plan) +
-           indices * sizeof(std::uint32_t);
-}
-
 Result<TangentReport> generateTangents(const MeshView& given, const TangentOptions& options, const TangentOutput& out,
                                        const Execution& execution) {
     return atBorder([&]() -> Result<TangentReport> {
         if (hasOwnLists(given)) {
             if (Error e = checkDomain(options); e.code != ErrorCode::ok) return e;
-            return withOneList(given, execution, [&](const MeshView& with_one_list) {
-                return generateTangents(with_one_list, options, out, execution);
-            });
+            const auto generate = [&](const MeshView& mesh) { return generateTangents(mesh, options, out, execution); };
+            if constexpr (kHasAllMethods) return withOneList(given, execution, generate);
+            if (Result<Done> valid = validate(given); !valid) return std::move(valid).error();
+            return generate(CornerArrays(given, execution.allocator).view);
         }
         const Call<TangentOptions> call{options, execution};
         Parallel parallel(execution, tangentWork(options.method, given.cornerCount()));
@@ -420,7 +255,8 @@ Result<TangentReport> generateTangents(const MeshView& given, const TangentOptio
         startHasTangent(out, parallel);
         const UnitNormals normals(given.normals, options.normalize_normals, execution.allocator, parallel);
         const MeshView mesh = withNormals(given, normals);
-        if (options.frame == FrameShape::gramSchmidt) return generateFrames(mesh, call, out, parallel);
+        if (!kHasAllMethods || options.frame == FrameShape::gramSchmidt)
+            return generateFrames(mesh, call, out, parallel);
         const NeededBitangents needed(out, execution.allocator);
         const TangentReport report = generateFrames(mesh, call, needed.out, parallel);
         const bool per_vertex = options.domain == OutputDomain::vertex;
@@ -428,37 +264,6 @@ Result<TangentReport> generateTangents(const MeshView& given, const TangentOptio
             out.tangents, needed.out.bitangents,
             [&](std::size_t i) { return mesh.normals[per_vertex ? i : mesh.indices[i]]; }, parallel);
         return report;
-    });
-}
-
-Result<TangentPlan> planTangents(const MeshView& mesh, const TangentOptions& options, const Execution& execution) {
-    return atBorder([&]() -> Result<TangentPlan> {
-        const Call<TangentOptions> call{options, execution};
-        Result<std::unique_ptr<TangentPlan::State>> state =
-            hasOwnLists(mesh) ? planLists(mesh, call) : makePlan(mesh, call);
-        if (!state) return std::move(state).error();
-        return TangentPlan((*state).release());
-    });
-}
-
-Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose, const TangentOutput& out,
-                                       const Execution& execution) {
-    return atBorder([&]() -> Result<TangentReport> {
-        const TangentPlan::State& state = plan.state();
-        if (Error e = checkPose(pose, state.vertex_count, state.normal_count); e.code != ErrorCode::ok) return e;
-        if (Error e = checkOutput(out, state.output_count); e.code != ErrorCode::ok) {
-            if (e.code == ErrorCode::countMismatch) e.code = ErrorCode::planMismatch;
-            return e;
-        }
-        Parallel parallel(execution, tangentWork(state.method, state.corner_count));
-        startHasTangent(out, parallel);
-        const UnitNormals unit(pose.normals, state.normalizes_normals, execution.allocator, parallel);
-        if (state.source_vertices.empty())
-            return state.evaluateFrames({pose.positions, unit.view()}, out, execution, parallel);
-        const Buffer<Vec3> positions = gathered(pose.positions, state.source_vertices, execution.allocator);
-        const Buffer<Vec3> normals = gathered(unit.view(), state.source_normals, execution.allocator);
-        const Pose with_one_list{{positions.data(), positions.size()}, {normals.data(), normals.size()}};
-        return state.evaluateFrames(with_one_list, out, execution, parallel);
     });
 }
 

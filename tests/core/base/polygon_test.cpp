@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/frames/triangulate.h"
+#include "core/frames/face_cutter.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

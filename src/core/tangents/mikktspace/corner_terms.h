@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base/build_parts.h"
 #include "core/simd/dispatch.h"
 
 namespace tspace::mikk {

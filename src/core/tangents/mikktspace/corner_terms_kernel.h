@@ -115,6 +115,7 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
                        bool exact, CornerTerms& terms) {
     Group group;
     group.load(source, vertices, exact);
+    const Weighting weighting = kHasAllMethods ? source.weighting : Weighting::projected_angle;
     const bool with_marks = source.with_marks, with_bitangents = with_marks || !source.tangents_only;
     const Shape shape(group, with_bitangents);
     Bits facing = broadcastBits(0), flags = broadcastBits(0);
@@ -125,7 +126,7 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
         usable = shape.finite & !shape.no_area;
         flags = orWhere(orWhere(flags, shape.no_area, kNoUvArea), degenerate, kDegenerateMark);
         flags = orWhere(flags, !shape.positive, kMirroredMark);
-        if (source.weighting == Weighting::none) {
+        if (weighting == Weighting::none) {
             const Bits all_marks = keepWhere(facing, usable) | flags;
             for (std::size_t k = 0; k < 3; ++k) store(terms.marks[k] + first, all_marks);
             return;
@@ -135,7 +136,7 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
             return;
         }
     }
-    const bool is_mikktspace = source.weighting == Weighting::projected_angle;
+    const bool is_mikktspace = weighting == Weighting::projected_angle;
     Vectors s[3], t[3];
     Floats weights[3];
     Bits marks[3];
@@ -158,10 +159,10 @@ inline void groupTerms(const CornerSource& source, const std::uint32_t* vertices
             marks[k] = is_mikktspace ? sidesOf(s[k], square, projected_t, facing) : facing;
         }
         const Vectors here = group.position[k];
-        weights[k] = weightOrCosine(source.weighting, normal, group.position[(k + 2) % 3] - here,
-                                    group.position[(k + 1) % 3] - here);
+        weights[k] =
+            weightOrCosine(weighting, normal, group.position[(k + 2) % 3] - here, group.position[(k + 1) % 3] - here);
     }
-    if (is_mikktspace || source.weighting == Weighting::angle) {
+    if (is_mikktspace || weighting == Weighting::angle) {
         const Floats cosines[3] = {weights[0], weights[1], weights[2]};
         arcCosines(cosines, weights);
     }

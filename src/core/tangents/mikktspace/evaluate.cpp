@@ -45,7 +45,7 @@ class PlanTriangles final : public TriangleGroups {
 /// Computes the sums of a range of groups, in the order of triangles.
 void sumRange(const EvaluationPlan& plan, const CornerSource& source, CornerTermsFunction termsOf, GroupRange range,
               RangeLists::Batches triangles, GroupSums& sums) {
-    const bool are_known = !plan.terms.empty();  // true: terms are stored, so triangles are read in whole blocks
+    const bool are_known = plan.hasTerms();  // true: terms are stored, so triangles are read in whole blocks
     std::fill_n(sums.groups.data() + range.begin, range.size(), Vec3{});
     if (!sums.rest.empty()) std::fill_n(sums.rest.data() + range.begin, range.size(), GroupRest{});
     TriangleBatch batch;
@@ -81,7 +81,7 @@ GroupSums sumGroups(const EvaluationPlan& plan, const CornerSource& source, Corn
         std::clamp<std::size_t>(groups / kGroupsPerTask, 1, std::max<std::size_t>(1, parallel.width()));
     const std::size_t size = std::bit_ceil((groups + tasks - 1) / tasks);
     // A single range needs no lists. In builds without threads, the compiler then omits the code that creates them.
-    const RangeLists lists = plan.terms.empty() && tasks > 1
+    const RangeLists lists = !plan.hasTerms() && tasks > 1
                                  ? RangeLists(triangles, kTermTriangles, groups, size, allocator, parallel)
                                  : RangeLists(kTermTriangles, groups, size);
     parallel.forTasks(lists.count(), [&](std::size_t task) {
@@ -114,10 +114,10 @@ class Evaluation {
         if (plan_.vertex_count == 0) return report;
         if (estimates != nullptr) {
             sums_ = std::move(*estimates);
-        } else if (isEstimated(plan_.method)) {
-            estimate();
-        } else {
+        } else if (!isEstimated(plan_.method)) {
             sums_ = sumGroups(plan_, source_, terms_, allocator_, parallel_);
+        } else if constexpr (kHasAllMethods) {
+            estimate();
         }
         finishGroups();
         writeCorners();
@@ -233,7 +233,7 @@ class Evaluation {
         if (!plan_.conflicts.empty()) members_ = Buffer<Tangents>(allocator_, plan_.members.size());
         const std::size_t tasks =
             std::min<std::size_t>(count / 64 + 1, parallel_.width() == 1 ? 1 : 4 * parallel_.width());
-        Buffer<CornerTerms> terms(allocator_, plan_.terms.empty() ? tasks * blocks : 0);
+        Buffer<CornerTerms> terms(allocator_, plan_.hasTerms() ? 0 : tasks * blocks);
         parallel_.forTasks(tasks, [&](std::size_t task) {
             SplitScratch scratch{terms.empty() ? nullptr : terms.data() + task * blocks};
             for (std::size_t i = count * task / tasks; i < count * (task + 1) / tasks; ++i)
@@ -269,7 +269,7 @@ class Evaluation {
     void add(const EvaluatedSplit& split, std::size_t member, const SplitScratch& scratch, Vec3& sum,
              GroupRest& rest) const {
         const std::uint32_t half_edge = plan_.members[split.begin + member];
-        const bool is_known = !plan_.terms.empty();
+        const bool is_known = plan_.hasTerms();
         const CornerTerms& terms =
             is_known ? plan_.terms[half_edge / kTermCorners] : scratch.blocks[member / kTermTriangles];
         const std::size_t t = is_known ? half_edge / 3 % kTermTriangles : member % kTermTriangles, k = half_edge % 3;
@@ -279,7 +279,7 @@ class Evaluation {
     }
 
     void computeTerms(const EvaluatedSplit& split, SplitScratch& scratch) const {
-        for (std::uint32_t begin = 0; plan_.terms.empty() && begin < split.count; begin += kTermTriangles) {
+        for (std::uint32_t begin = 0; !plan_.hasTerms() && begin < split.count; begin += kTermTriangles) {
             const std::uint32_t count = std::min<std::uint32_t>(kTermTriangles, split.count - begin);
             for (std::uint32_t i = 0; i < count; ++i) {
                 const std::uint32_t first = plan_.members[split.begin + begin + i] / 3 * 3;

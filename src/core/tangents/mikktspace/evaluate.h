@@ -76,6 +76,8 @@ struct EvaluationPlan {
         if (!slots.empty()) return slots[half_edge];
         return triangles.empty() ? half_edge : 3 * triangles[half_edge / 3] + half_edge % 3;
     }
+    /// Returns whether the plan contains the terms of the pose, as every plan of a build without kept plans.
+    [[nodiscard]] bool hasTerms() const { return !kHasAllMethods || !terms.empty(); }
     [[nodiscard]] std::size_t memoryBytes() const;
 };
 
@@ -113,10 +115,7 @@ inline Vec3 unit(const Vec3& v) { return notZero(v) ? (1.0f / length(v)) * v : v
 inline Vec3 flatten(const Vec3& n, const Vec3& v) { return unit(v - dot(n, v) * n); }
 
 inline bool requestsOnlyTangents(const TangentOutput& out) {
-#ifdef TSPACE_MIKKTSPACE_ONLY
-    return true;
-#endif
-    return out.bitangents.empty() && out.magnitudes_s.empty() && out.magnitudes_t.empty();
+    return kIsMinimal || (out.bitangents.empty() && out.magnitudes_s.empty() && out.magnitudes_t.empty());
 }
 
 /// Returns the weighting of a method. For `fast` and `best`, which compute their own sums (estimators/), the kernels

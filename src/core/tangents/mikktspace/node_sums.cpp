@@ -84,7 +84,7 @@ class Summer {
         for (std::size_t t = 0; !batch.is_whole && t < batch.count; ++t) {
             if (range_.has(batch.groups[3 * t])) kinds[batch.number(t)] = kindOf(t);
         }
-        if (sweep_.source.weighting == Weighting::none) {
+        if (kHasAllMethods && sweep_.source.weighting == Weighting::none) {
             add<Sums::none>(batch);
         } else if (sums_.rest.empty()) {
             add<Sums::tangents>(batch);

@@ -41,11 +41,12 @@ struct OnePass {
           transient(scratch),
           parallel(threads),
           allocator(setting.options.execution.allocator),
-          estimates(isEstimated(setting.options.method)),
           sink(output, setting.options.convention),
           defaults(output),
           complex(allocator, setting.nodes.count / 64 + 1, std::uint64_t{0}) {}
 
+    /// Returns whether the method is `fast` or `best`, whose sums come from estimators; this pass then only forms groups.
+    [[nodiscard]] bool estimates() const { return isEstimated(in.options.method); }
     [[nodiscard]] bool isComplex(std::size_t n) const { return (complex[n / 64] >> (n % 64) & 1) != 0; }
 
     /// Leaves a node to the vertex path, even if it was finished. (If it had no groups, it was not counted.)
@@ -63,7 +64,6 @@ struct OnePass {
     ScratchBlock& transient;
     Parallel& parallel;
     const Allocator* allocator;
-    bool estimates;  ///< true: `fast` or `best`, whose sums come from estimators; this pass only forms groups
     Sink sink;
     DefaultCorners defaults;
 
@@ -96,7 +96,7 @@ FourKinds finishFour(OnePass& pass, std::size_t n, std::size_t left) {
     // A node with one orientation has triangles, so its fan has at least one path; without a second path it is one fan.
     Mask4 simple = (up ^ down) & (second_path == 0);
     const unsigned missing = 15u & ~0u << std::min<std::size_t>(left, 4);
-    if (pass.estimates) return {laneBits(~(simple | empty)) & ~missing, laneBits(empty) & ~missing};
+    if (pass.estimates()) return {laneBits(~(simple | empty)) & ~missing, laneBits(empty) & ~missing};
     Float4 x = loadFloat4(nodes[at[0]].s), y = loadFloat4(nodes[at[1]].s), z = loadFloat4(nodes[at[2]].s),
            w = loadFloat4(nodes[at[3]].s);
     transpose4(x, y, z, w);
@@ -256,11 +256,14 @@ GroupSums estimateWithPlan(OnePass& pass, const EvaluationPlan& plan) {
     const estimators::GroupEstimates to[2] = {{reinterpret_cast<std::byte*>(pass.sums.nodes.data()), sizeof(NodeSum),
                                                pass.sums.rest.data(), pass.in.nodes.count},
                                               estimatesIn(planned)};
-    Execution execution = pass.in.options.execution;
-    execution.allocator = pass.transient.allocator();
-    estimators::estimateGroups(
-        pass.in.options.method, pass.in.options.refine, joined, {pass.in.mesh.positions, pass.in.mesh.normals},
-        pass.in.mesh.uvs, inputScale(by_node, pass.in.mesh.positions, pass.in.mesh.uvs), to, execution, pass.parallel);
+    if constexpr (kHasAllMethods) {
+        Execution execution = pass.in.options.execution;
+        execution.allocator = pass.transient.allocator();
+        estimators::estimateGroups(pass.in.options.method, pass.in.options.refine, joined,
+                                   {pass.in.mesh.positions, pass.in.mesh.normals}, pass.in.mesh.uvs,
+                                   inputScale(by_node, pass.in.mesh.positions, pass.in.mesh.uvs), to, execution,
+                                   pass.parallel);
+    }
     return planned;
 }
 
@@ -368,7 +371,7 @@ TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput&
     const TangentOptions& options = setting.options;
     const Pose pose{setting.mesh.positions, setting.mesh.normals};
     CornerSource source =
-        cornerSource(pose, setting.mesh.uvs, options.method, pass.estimates || requestsOnlyTangents(out));
+        cornerSource(pose, setting.mesh.uvs, options.method, pass.estimates() || requestsOnlyTangents(out));
     source.adding_only = true;
     sumNodes(
         setting, source, cornerTermsFor(setting.options.execution.simd), transient, pass.allocator, parallel, pass.sums,
@@ -381,24 +384,24 @@ TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput&
     TangentReport report = pass.sums.report;
     // The sums are released before the corners of complex nodes are listed, except for estimates, which need the groups
     // of all nodes first.
-    if (!pass.estimates) {
+    if (!pass.estimates()) {
         writeCorners(pass);
         pass.sums = {};
     }
     TangentReport of_complex;
-    if (pass.complex_count != 0 || pass.estimates) {
+    if (pass.complex_count != 0 || pass.estimates()) {
         EvaluationPlan plan;
         if (pass.complex_count != 0) {
             const Buffer<std::uint32_t> chosen = complexNodes(pass);
             plan = planChosen({setting, {chosen.data(), chosen.size()}, false, PlanUse::once, parallel});
         }
         GroupSums estimates;
-        if (pass.estimates) {
+        if (pass.estimates()) {
             estimates = estimate(pass, plan);
             writeCorners(pass);
         }
         of_complex = evaluateGroups(plan, pose, setting.mesh.uvs, out, setting.options.execution, parallel,
-                                    pass.estimates ? &estimates : nullptr);
+                                    pass.estimates() ? &estimates : nullptr);
     }
     report.skipped_face_count = setting.triangles.skipped_face_count;
     report.reference_order_abandoned = of_complex.reference_order_abandoned || setting.bucket.abandoned;

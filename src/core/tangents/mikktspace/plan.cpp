@@ -95,7 +95,7 @@ class Planner {
         to_.default_corners = default_corners_.exact();
         to_.copies = copies_.exact();
         to_.triangles = std::move(corners_.found);
-        if (path_.use == PlanUse::once) to_.terms = std::move(corners_.terms);
+        if (!isKept(path_.use)) to_.terms = std::move(corners_.terms);
         return std::move(to_);
     }
 
@@ -105,7 +105,7 @@ class Planner {
         to_.groups = Buffer<std::uint32_t>(allocator_, count, kNone);
         if (!in_.triangles.corners.empty()) to_.slots = Buffer<std::uint32_t>(allocator_, count);
         for (std::uint32_t h = 0; h < to_.slots.size(); ++h) to_.slots[h] = slotOf(h);
-        if (path_.use == PlanUse::once) return;
+        if (!isKept(path_.use)) return;
         to_.vertices = Buffer<std::uint32_t>(allocator_, count + kTermCorners, 0u);
         for (std::uint32_t h = 0; h < count; ++h) {
             const std::uint32_t own = mesh_.indices[slotOf(h)], vertex = in_.nodes.vertex(corners_.nodes[h]);
@@ -283,7 +283,7 @@ class CornerReader {
           to_(allocator_),
           good_(allocator_) {
         source_.adding_only = true;
-        if (path.use == PlanUse::kept && !in_.maySplit()) source_.weighting = Weighting::none;
+        if (isKept(path.use) && !in_.maySplit()) source_.weighting = Weighting::none;
     }
 
     VertexCorners run() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Triangulation of faces by the rule of triangulate.h, and welding.
+// Triangulation of faces by the rule of face_cutter.h, and welding.
 #include "core/tangents/mikktspace/weld.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include "core/base/mesh_loops.h"
 #include "core/base/vec_math.h"
 #include "core/base/weld.h"
-#include "core/frames/triangulate.h"
+#include "core/frames/face_cutter.h"
 #include "core/tangents/mikktspace/grid_order.h"
 #include "core/tangents/mikktspace/words.h"
 

@@ -21,7 +21,7 @@ struct PolygonVertex {
     std::uint32_t corner;
     DVec3 position;
     PlanePoint point = {};
-    std::uint64_t order = 0;  ///< sort key of the cutting order (orderOf in triangulate.cpp)
+    std::uint64_t order = 0;  ///< sort key of the cutting order (orderOf in face_cutter.cpp)
     std::uint32_t previous = 0, next = 0;
     bool is_reflex = false;
 };
