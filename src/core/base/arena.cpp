@@ -194,7 +194,7 @@ class Arena::Impl {
     }
 
     std::byte *space_ = nullptr, *begin_ = nullptr;
-    std::size_t space_bytes_ = 0, room_ = 0;  ///< reserved bytes, and usable bytes of these
+    std::size_t space_bytes_ = 0, room_ = 0;  ///< reserved bytes, and how many of them are usable
     std::size_t held_ = 0, elsewhere_ = 0, used_ = 0;
     std::vector<Block> blocks_;  ///< consecutive blocks up to the last one in use; free blocks are never adjacent
 };

@@ -33,7 +33,7 @@ std::vector<T> gathered(const StridedSpan<const T>& values, const std::vector<st
 Result<Done> useOneList(const MeshView& mesh, const Execution& execution, OneListMesh& made,
                         std::span<const std::uint32_t> welded, std::span<const CornerAttribute> further) {
     const std::size_t corner_count = mesh.cornerCount();
-    // Attributes that distinguish corners: values, or indices as floats, whose bits the split compares.
+    // Attributes that distinguish corners: their values, or their indices viewed as floats. The split compares bits.
     std::vector<CornerAttribute> attributes(further.begin(), further.end());
     std::vector<std::uint32_t> numbers[2];
     const auto add = [&](const auto& values, const IndexView& list, std::vector<std::uint32_t>& memory) {

@@ -110,8 +110,8 @@ struct Places {
 /// For each of the 6 orders, the row of a chart's rotation for each row of the small rotation (see Charts).
 constexpr std::size_t kRowAt[6][3] = {{0, 1, 2}, {2, 0, 1}, {1, 2, 0}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
 
-/// Half of the cube's side, and half a step more: a code on the cube's face may be the nearest one for a rotation
-/// outside.
+/// Half of the side of the cube, and a little more than half a step: a code on the cube's face may be the nearest one
+/// for a rotation outside.
 constexpr float kReach = static_cast<float>(kHalfEdge * (1 + 0.6 / kSide));
 /// Lower bound of the trace of all rotations within kReach: in the corners of the cube it is 1.640.
 constexpr float kLeastTrace = 1.63f;

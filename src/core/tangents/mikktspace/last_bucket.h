@@ -26,7 +26,7 @@ struct LastBucket {
         std::uint32_t partner;    ///< half-edge that the reference pairs it with; kNone: no neighbor
     };
     Buffer<Link> links;           ///< changed links, ascending by half-edge
-    Buffer<std::uint32_t> nodes;  ///< nodes at the endpoints of these edges, ascending, with some repetitions
+    Buffer<std::uint32_t> nodes;  ///< nodes at the ends of the changed links' edges, ascending, with some repetitions
     bool abandoned = false;       ///< the input makes the reference's sort quadratic: no links were computed
 
     [[nodiscard]] bool concerns(std::uint32_t node) const {
