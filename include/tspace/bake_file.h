@@ -70,8 +70,8 @@ struct BakeFileOptions {
     std::string match = "names";
     /// Ignore the normal maps of the high poly's materials: bake its vertex normals only.
     bool ignore_high_maps = false;
-    /// Green direction of these maps. Unset: as declared in the file, otherwise as detected from their slopes,
-    /// otherwise up.
+    /// Green direction of the high poly's normal maps. Unset: as declared in the file, otherwise as detected from their
+    /// slopes, otherwise up.
     std::optional<Green> high_green = {};
     std::string misses = {};  ///< path of an image that shows the state of each texel (TexelOrigin); empty: none
     std::string heat = {};    ///< path of an image of the error as a heat map; empty: none
@@ -79,13 +79,13 @@ struct BakeFileOptions {
     /// (refers to them). All files appear together, or none. Not with `udim`, object space or green down, which glTF
     /// does not support (invalidOption). Empty: not written.
     std::string out_mesh = {};
-    /// Texels of unit length, for two-channel formats whose readers reconstruct z from x and y (BC5, DXT5nm): sets
+    /// Bake texels of unit length, for two-channel formats whose readers reconstruct z from x and y (BC5, DXT5nm): sets
     /// `map.reading.two_channels` for any reading.
     bool unit = false;
     bool udim = false;  ///< one file per UDIM tile: NAME.1001.png
-    /// Also bake triangles whose UV center lies outside 0-1, at the texels that repeat there. Otherwise (and without
-    /// `udim`) they are ignored as offset copies, which artists use for surfaces that share texels. A material with
-    /// only such triangles is always baked this way.
+    /// Also bake triangles whose UV center lies outside 0-1, into the texels that a repeating texture shows there.
+    /// Otherwise (and without `udim`) they are ignored as offset copies, which artists use for surfaces that share
+    /// texels. A material with only such triangles is always baked this way.
     bool wrap = false;
     /// Layers to bake. The call sets `ids`, `material` and the box of positions. The normal map is written to the
     /// output path, the others to NAME_ao.png and so on; the red channel of `orm` is `ao`, if both are requested.
@@ -130,7 +130,7 @@ struct BakedFile {
     std::uint64_t outside_count = 0;  ///< ignored triangles of the material: see BakeFileOptions::wrap
     UsedRays rays = {};
     BakedMap map = {};        ///< the baked map, without its texels
-    double heat_top_deg = 0;  ///< value of the brightest color of the heat map
+    double heat_top_deg = 0;  ///< angle that the brightest color of the heat map shows
     std::vector<BakedLayerFile> layers = {};
 };
 
@@ -157,7 +157,7 @@ Result<BakeFileReport> bakeFile(const std::string& low, const std::string& high,
                                 const BakeFileOptions& options = {});
 
 struct MapErrorFileOptions {
-    MapErrorOptions map = {};                                  ///< how the map is interpreted and measured
+    MapErrorOptions map = {};                                  ///< interpretation and measurement of the map
     TangentOptions tangents{.convention = conventions::gltf};  ///< as in BakeFileOptions
     NormalOptions normals{.weighting = NormalWeighting::flat};
     FileOptions file = {};
@@ -218,8 +218,8 @@ Result<MapErrorFileReport> mapErrorFile(const std::string& map, const std::strin
 /// Normals to recompute.
 enum class FinishNormals : std::uint32_t {
     missing = 0,  ///< missing normals, and those that checkFile reports as errors
-    all = 1,      ///< everywhere
-    none = 2,     ///< only those that tangents need
+    all = 1,      ///< all normals
+    none = 2,     ///< only normals that tangents need
 };
 
 /// Returns BakeFileOptions with all maps.
@@ -237,7 +237,7 @@ struct FinishOptions {
     /// winding if checkFile would otherwise find more normals against their triangles than before: its normals match
     /// its triangles, and it renders correctly.
     bool mend_winding = true;
-    bool images = true;  ///< as CheckOptions::images and GenerateOptions::Maps::read; does not affect baking
+    bool images = true;  ///< like CheckOptions::images and GenerateOptions::Maps::read; does not affect baking
     /// Model with UVs that replaces the input, which becomes its high poly: it is written to the output with all maps.
     /// Empty: the input is written to the output.
     std::string low = {};
@@ -247,7 +247,7 @@ struct FinishOptions {
     std::string page_date = {};
     /// Command line of the run, as shown in the page: any text; empty: only the version.
     std::string page_command = {};
-    FileOptions file = {};  ///< without `content`
+    FileOptions file = {};  ///< `content` is not supported
     Execution execution = {};
     Progress progress = {};
 };

@@ -66,7 +66,8 @@ enum class FindingCode : std::uint32_t {
     packedFramesUnreadable = 31,
     packedFramesDiffer = 32,  ///< packed frames differ from NORMAL and TANGENT
     tangentsUnreadable = 33,  ///< TANGENT has a type or an element count that is invalid for tangents
-    positionsRounded = 34,    ///< positions are stored so coarsely that triangles no longer show the tangent directions
+    /// positions are stored so coarsely that triangles no longer determine the tangent directions
+    positionsRounded = 34,
     normalSeam = 35,  ///< two primitives of one smooth surface, each with normals computed from its own triangles only
     normalsFarFromFaces = 36,     ///< normals that differ strongly from all triangles at their vertices
     morphNormalsMissing = 37,     ///< a morph target rotates the surface but not the normals
@@ -75,7 +76,7 @@ enum class FindingCode : std::uint32_t {
     normalMapUnsigned = 40,       ///< blue is z itself instead of (z + 1) / 2
     normalMapChannels = 41,       ///< x, y and z are in other channels, or inverted: z in red, x in alpha, ...
     normalMapIsSrgb = 42,         ///< the sRGB curve was applied to the vectors, or removed from them
-    normalMapInObjectSpace = 43,  ///< directions in mesh or world coordinates
+    normalMapInObjectSpace = 43,  ///< the map contains directions in mesh or world coordinates
     normalMapIsHeight = 44,       ///< the image is gray
     normalMapScale = 45,          ///< normalTexture.scale is 0 or below
     normalMapIsPicture = 46,      ///< colors that are not unit vectors
@@ -167,7 +168,7 @@ struct CheckOptions {
     FileOptions file = {};
     /// Primitives are checked in parallel. An allocator is not used.
     Execution execution = {};
-    /// Faces whose tangents are the reference. automatic: triangles, or quads if the tangents clearly fit those better;
+    /// Faces whose tangents are the reference. automatic: triangles, or quads if the tangents clearly fit quads better;
     /// quads: pairs of triangles that look like a quad. Blender computes tangents on quads.
     Faces faces = Faces::automatic;
     /// Weld distance of positions for winding, borders of primitives and noise: as NormalOptions::weld_distance.
@@ -207,7 +208,7 @@ struct CheckedImage {
 };
 
 struct CheckReport {
-    /// As Inspection::format; for an image "png", "jpeg", "webp", "exr", "ktx2", "dds" or "tga".
+    /// Format of the file, as in Inspection::format; for an image "png", "jpeg", "webp", "exr", "ktx2", "dds" or "tga".
     std::string format = {};
     std::string generator = {};          ///< the program that wrote the file; may be empty
     std::vector<Finding> findings = {};  ///< errors first, then in file order, then by code

@@ -47,7 +47,7 @@ struct Convention {
     friend bool operator==(const Convention&, const Convention&) = default;
 };
 
-/// Returns the factor (+1 or -1) from the raw sign (of dP/dv for the UVs as given) to the stored sign.
+/// Returns the factor (+1 or -1) that converts the raw sign (of dP/dv for the UVs as given) to the stored sign.
 inline constexpr float signFactor(const Convention& c) {
     const bool flip = (c.v_axis == VAxis::down) != (c.green == Green::down);
     return flip != (c.stored_sign == StoredSign::negated) ? -1.0f : 1.0f;

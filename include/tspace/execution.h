@@ -46,8 +46,8 @@ struct Execution {
     /// Allocates scratch memory and plans. Null: operator new, and no memory is kept between calls. With an Arena,
     /// consecutive calls take a tenth less time (generateTangents with more than 4096 corners).
     const Allocator* allocator = nullptr;
-    /// For tests and measurements. A target that this CPU does not support is replaced by the best one with a lower
-    /// number.
+    /// SIMD target, for tests and measurements. A target that this CPU does not support is replaced by the best one
+    /// with a lower number.
     SimdTarget simd = SimdTarget::best;
 };
 

@@ -46,8 +46,8 @@ struct FileOptions {
     /// Provides the files that `content` refers to, restricted to the model's folder and below unless `allow_external`.
     /// Without it, a required reference is an error (invalidFile).
     FindFile find_file = {};
-    /// Called with the path of each file that is read, immediately, and of each image on disk that a glTF refers to,
-    /// read or not. May be called by several threads at the same time.
+    /// Called with the path of each file at the time when it is read, and of each image on disk that a glTF refers to,
+    /// whether or not it is read. May be called by several threads at the same time.
     std::function<void(const std::string& path)> opened = {};
     /// If set, called instead of `opened` with the path of each image that a glTF references, whether or not the image
     /// is read.

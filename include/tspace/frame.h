@@ -85,8 +85,8 @@ Vec3 decodeNormal(const Vec3& texel, const TexelDecode& options = {});
 Vec2 tileUv(const Vec2& uv, const Vec2& tiling, const Vec2& offset = {});
 
 /// Returns Lambert's cosine in tangent space: max(0, n.l), where n is the decoded texel and l the object-space
-/// direction towards the light, transformed to tangent space by the orthonormalized frame. The CPU reference for
-/// shaders.
+/// direction towards the light, transformed to tangent space by the orthonormalized frame. This is the CPU reference
+/// for shaders.
 float lambert(const Frame& frame, const Vec3& light_direction, const Vec3& tangent_space_normal);
 
 /// Returns the object-space normal for a decoded texel: unit(T x + B y + N z) with the orthonormalized frame.

@@ -53,11 +53,11 @@ enum class PackDrop : std::uint32_t {
     all = 2,       ///< TANGENT and NORMAL: only readers of the packed attribute can still light the primitive correctly
 };
 
-/// Normal maps whose green channel is inverted.
+/// Which normal maps get their green channel inverted.
 enum class FlipGreen : std::uint32_t {
     none = 0,
-    /// Maps whose green points down throughout, as detected by checkFile (greenFlipped). Not maps whose kept tangents
-    /// have inverted signs: the two cancel out.
+    /// Maps whose green points down throughout, as detected by checkFile (greenFlipped). Maps whose kept tangents have
+    /// inverted signs are not inverted, because the two cancel out.
     down = 1,
     all = 2,  ///< every normal map and clearcoat normal map
 };
@@ -73,25 +73,25 @@ enum class MorphNormals : std::uint32_t {
 struct GenerateOptions {
     /// Primitives that get tangents, and the treatment of existing tangents.
     struct Selection {
-        bool all = false;    ///< also primitives whose material needs no tangents
+        bool all = false;    ///< also add tangents to primitives whose material needs none
         bool strip = false;  ///< remove tangents that no material needs; cannot be combined with `all` (invalidOption)
         ExistingTangents existing = ExistingTangents::keep;
     };
 
-    /// Normals that are computed.
+    /// Options for computing normals.
     struct Normals {
-        /// For primitives without normals. Default: flat, as glTF requires. weld_distance also applies to winding
-        /// and to borders of primitives.
+        /// Options for primitives without normals. Default: flat, as glTF requires. weld_distance also applies to
+        /// winding and to borders of primitives.
         NormalOptions compute{.weighting = NormalWeighting::flat, .weld_distance = NormalOptions::weld_auto};
-        /// OBJ files with `s` lines: missing normals follow these groups with angle weights (faces in group 0 are
-        /// flat). false, or a file without `s` lines: `compute` applies.
+        /// true: missing normals of OBJ files with `s` lines follow these smoothing groups, with angle weights (faces
+        /// in group 0 are flat). false, or a file without `s` lines: `compute` applies.
         bool use_smoothing_groups = true;
-        /// false: computed normals, with any weighting except `flat`, are smooth across the border of two primitives
-        /// of a mesh that form one surface (they share edges, by equal positions, as neighboring triangles do). If
-        /// the other primitive has normals, these are kept, and computed ones adopt them at the border within 30
-        /// degrees and the crease angle. Tangents are computed for each primitive separately, as bakers do. true:
-        /// normals are too, and the border is a seam. OBJ: normals are smooth over the whole file, or, with true,
-        /// over the faces of one object and material.
+        /// false: computed normals, with any weighting except `flat`, are smooth across the border of two primitives of
+        /// a mesh that form one surface (they share edges, by equal positions, as neighboring triangles do). If the
+        /// other primitive has normals, these are kept, and computed ones adopt them at the border within 30 degrees
+        /// and the crease angle. Tangents are computed for each primitive separately, as bakers do. true: normals are
+        /// also computed for each primitive separately, and the border is a seam. OBJ: normals are smooth over the
+        /// whole file, or, with true, over the faces of one object and material.
         bool per_primitive = false;
         /// Recompute existing normals with `compute` in every primitive with triangles whose material is not unlit,
         /// and add missing ones, whether or not tangents are needed. Vertices that differ only in computed data
@@ -107,7 +107,7 @@ struct GenerateOptions {
         MorphNormals morphs = MorphNormals::keep;
     };
 
-    /// Tangents that are computed.
+    /// Options for computing tangents.
     struct Tangents {
         TangentOptions compute{.convention = conventions::gltf};
         TextureTransform texture_transform = TextureTransform::apply;
@@ -141,8 +141,8 @@ struct GenerateOptions {
         /// ExistingTangents::repair, TextureTransform::ignore or flip_green (invalidOption).
         bool convert = false;
         /// Read the pixels of normal maps if ExistingTangents::repair needs them. false: inverted signs are kept,
-        /// since green of the maps may point down too. Cannot be combined with flip_green, mend or
-        /// convert (invalidOption).
+        /// because green of the maps may also point down. Cannot be combined with flip_green, mend or convert
+        /// (invalidOption).
         bool read = true;
     };
 
@@ -174,9 +174,8 @@ struct GenerateOptions {
     /// Receives the output, a GLB, instead of a file, after all computations; the output path is then only a name
     /// (NAME.glb). Files that the model refers to are not written. If it returns false: cannotWrite.
     Sink sink = {};
-    bool dry_run = false;  ///< everything except writing; the report states what would be written
-    /// For the whole file: primitives are processed in parallel. With an allocator they are processed one after
-    /// another.
+    bool dry_run = false;  ///< true: nothing is written; the report states what would be written
+    /// Threads for the whole file: primitives are processed in parallel, or, with an allocator, one after another.
     Execution execution = {};
     Progress progress = {};
 };
@@ -240,12 +239,12 @@ struct PrimitiveReport {
     /// Triangles wound against most of their connected neighbors, over edges of two triangles. Counted if normals are
     /// computed or vertices were split; otherwise 0.
     std::uint64_t turned_triangle_count = 0;
-    /// Triangles of two-sided sheets: others with the same positions have the opposite winding. Counted
-    /// under the same conditions as turned_triangle_count.
+    /// Triangles of two-sided sheets: another triangle with the same positions has the opposite winding. Counted under
+    /// the same conditions as turned_triangle_count.
     std::uint64_t two_sided_triangle_count = 0;
     std::uint64_t winding_mended_count = 0;  ///< faces that were flipped (mend_winding)
-    /// The flipped faces as ascending ranges, the first kMostMendedRanges of them. Triangles of the primitive, numbered
-    /// from 0; for OBJ, faces of the file.
+    /// Ranges of flipped faces, ascending, at most kMostMendedRanges. Faces are triangles of the primitive, numbered
+    /// from 0, or, for OBJ, faces of the file.
     std::vector<FaceRange> winding_mended = {};
     TangentReport tangents = {};
     std::uint64_t negative_uv_count = 0;  ///< triangles with negative UV area, for the UVs as stored
@@ -292,8 +291,9 @@ struct ConvertedMapReport {
 };
 
 struct GenerateReport {
-    std::vector<PrimitiveReport> primitives = {};         ///< one entry per primitive, in file order
-    std::vector<NormalMapReport> normal_maps = {};        ///< with flip_green or Maps::mend; height maps of OBJ too
+    std::vector<PrimitiveReport> primitives = {};  ///< one entry per primitive, in file order
+    /// with flip_green or Maps::mend; also height maps of OBJ files
+    std::vector<NormalMapReport> normal_maps = {};
     std::vector<ConvertedMapReport> converted_maps = {};  ///< maps whose primitives got tangents (Maps::convert)
     std::vector<MendedWindingReport> windings = {};       ///< with mend_winding, for each mesh with triangles
     bool changed = false;                                 ///< false: the output is byte-identical to the input

@@ -20,7 +20,7 @@ namespace tspace {
 struct CornerAttribute {
     const float* data = nullptr;
     std::size_t stride_bytes = 0;       ///< distance between corners; at least 4 * component_count
-    std::uint32_t component_count = 0;  ///< 1..16
+    std::uint32_t component_count = 0;  ///< number of floats, 1 to 16
     /// 0: corners are equal only if all bits are. Above 0: equal if every component differs by at most this from the
     /// first corner of the vertex (so rounding noise does not split); NaN equals only its own bits.
     float tolerance = 0.0f;

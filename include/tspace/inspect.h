@@ -100,10 +100,11 @@ Result<Inspection> inspectFile(const std::string& input, const FileOptions& opti
 
 /// Meaning of the stored signs, over all corners.
 enum class SignReading : std::uint32_t {
-    none = 0,      ///< undetermined: no corner has an orientation
-    gltf = 1,      ///< as in glTF, B against increasing v: the method was given (u, 1 - v), or its sign was negated
-    inverted = 2,  ///< the opposite: the method was given the file's raw UVs and its sign was stored unchanged
-    mixed = 3,     ///< neither holds for at least 95 % of the corners
+    none = 0,  ///< undetermined: no corner has an orientation
+    gltf = 1,  ///< as in glTF, B against increasing v: the method was given (u, 1 - v), or its sign was negated
+    /// inverted relative to glTF: the method was given the file's raw UVs, and its sign was stored unchanged
+    inverted = 2,
+    mixed = 3,  ///< neither `gltf` nor `inverted` holds for at least 95 % of the corners
 };
 /// Returns "none", "gltf", "inverted" or "mixed".
 const char* signReadingName(SignReading reading);
@@ -129,7 +130,7 @@ struct Explanation {
     std::uint64_t near_any_count = 0;
     double mean_deg = 0;                    ///< mean angle to the method's tangent at the corner
     std::uint64_t gltf_sign_count = 0;      ///< corners whose sign is correct in glTF for the method's orientation
-    std::uint64_t inverted_sign_count = 0;  ///< corners whose stored sign is the opposite
+    std::uint64_t inverted_sign_count = 0;  ///< corners whose stored sign is the opposite of the correct sign in glTF
     std::uint64_t undecided_count = 0;      ///< corners with a direction whose triangle's UVs determine none
 
     [[nodiscard]] double nearShare() const { return corner_count == 0 ? 0 : double(near_count) / double(corner_count); }
@@ -147,7 +148,7 @@ struct PrimitiveIdentity {
     std::string material_name = {};  ///< name in the file; may be empty
     /// reason why the primitive was not examined, as a sentence; empty: it was examined
     std::string skipped = {};
-    /// Best first; every method with every UV set that has an area.
+    /// Results of every method with every UV set that has an area, best first.
     std::vector<Explanation> explanations = {};
     /// The texture's transform changes frames, so its UV set has two interpretations, one of which explains more
     /// corners.
@@ -166,11 +167,11 @@ struct Identification {
     std::string format = {};                 ///< "glb", "gltf", "obj"
     std::string generator = {};              ///< program that wrote the file; may be empty
     std::vector<std::string> warnings = {};  ///< warnings about the file, one sentence each
-    /// Over all primitives, best first: every method, with the texture's UV set in the interpretation that explains
-    /// more.
+    /// Results over all primitives, best first: every method, with the texture's UV set in the interpretation that
+    /// explains more.
     std::vector<Explanation> explanations = {};
     std::vector<PrimitiveIdentity> primitives = {};  ///< one entry per primitive, in file order
-    std::string verdict = {};                        ///< two or three sentences
+    std::string verdict = {};                        ///< summary in two or three sentences
 };
 
 /// Reads a model and compares its tangents with those of mikktspace, angle, area, uniform, lengyel, flat and the other
@@ -257,9 +258,9 @@ struct FrameDiff {
 /// Reads two models and compares their frames corner by corner.
 ///
 /// Primitives are paired by their triangles, as sets of corner positions (and UVs): the order of triangles and
-/// vertices, splits and indices do not matter. The rest is paired by name, then by position in the file if triangle
-/// counts are equal; their triangles are paired if their positions agree within 1/1000 of the primitive's size after
-/// both primitives are scaled to the same box, as after quantization. Errors: those of generateFile for reading;
+/// vertices, splits and indices do not matter. Other primitives are paired by name, then by position in the file if
+/// triangle counts are equal; their triangles are paired if their positions agree within 1/1000 of the primitive's size
+/// after both primitives are scaled to the same box, as after quantization. Errors: those of generateFile for reading;
 /// `element` is 0 if A is at fault, 1 if B is. Expected time n log n in the number of corners. Thread-safe.
 Result<FrameDiff> diffFiles(const std::string& a, const std::string& b, const DiffOptions& options = {});
 

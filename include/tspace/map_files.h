@@ -49,7 +49,7 @@ struct MapComponent {
     friend bool operator==(const MapComponent&, const MapComponent&) = default;
 };
 
-/// The default is the layout of glTF.
+/// Channels of x, y and z, and their encoding. The default is the layout of glTF.
 struct MapLayout {
     MapComponent x{MapChannel::red}, y{MapChannel::green}, z{MapChannel::blue};
     MapCurve curve = MapCurve::none;  ///< encoding of red, green and blue; alpha is always linear
@@ -71,8 +71,8 @@ enum class ImageFileFormat : std::uint32_t {
 };
 
 struct FlipGreenOptions {
-    /// Format of the output: format of the input, or PNG. Others are rejected (unsupportedFile), because they would
-    /// lose precision.
+    /// Format of the output: format of the input, or PNG. Other formats are rejected (unsupportedFile), because they
+    /// would lose precision.
     ImageFileFormat format = ImageFileFormat::sameAsInput;
     /// JPEG quality, 1 to 100. The default adds a smaller error than rounding to 8 bits.
     int jpeg_quality = 98;
@@ -85,7 +85,7 @@ struct FlipGreenOptions {
     std::span<const std::uint8_t> content = {};
     /// Like GenerateOptions::sink: receives the bytes instead of the file `output`.
     Sink sink = {};
-    bool dry_run = false;  ///< everything except writing
+    bool dry_run = false;  ///< true: nothing is written
     bool sync = true;      ///< as FileOptions::sync
 };
 
@@ -93,8 +93,8 @@ struct FlipGreenReport {
     ImageFileFormat format = ImageFileFormat::png;  ///< format of the output; never sameAsInput
     std::uint32_t width = 0, height = 0;
     std::uint32_t bits = 8;  ///< bits per channel
-    /// Every texel has exactly 255 - G (65535 - G with 16 bits), and all other channels are unchanged. false: a JPEG
-    /// was written, whose texels are rounded again, or a PNG from a KTX2 or DDS with values between the integers.
+    /// true: every texel has exactly 255 - G (65535 - G with 16 bits), and all other channels are unchanged. false: a
+    /// JPEG was written, whose texels are rounded again, or a PNG from a KTX2 or DDS with values between the integers.
     bool is_exact = true;
     std::vector<std::string> warnings = {};  ///< one sentence per warning
 };
@@ -168,7 +168,7 @@ struct ConvertMapFileOptions {
     unsigned bits = 0;
     TexelLengths lengths = TexelLengths::even;  ///< as ConvertMapOptions::lengths
     std::uint32_t padding = 0;                  ///< as ConvertMapOptions::padding
-    /// For meshes without tangents, which are computed as by generateFile.
+    /// Options for tangents of meshes without tangents, which are computed as by generateFile.
     TangentOptions tangents{.convention = conventions::gltf};
     /// Options for reading models and the image. A memory limit also applies to the image; without one, images of up to
     /// 2^24 pixels are read regardless of their file size.
@@ -176,7 +176,7 @@ struct ConvertMapFileOptions {
     /// The image, instead of the file `input`; must stay valid during the call.
     std::span<const std::uint8_t> content = {};
     Sink sink = {};        ///< receives the output instead of a file
-    bool dry_run = false;  ///< everything except writing
+    bool dry_run = false;  ///< true: nothing is written
     Execution execution = {};
     Progress progress = {};
     MapAlpha alpha = MapAlpha::automatic;    ///< alpha of `input`, if the output has mip levels (KTX2, DDS)
@@ -234,7 +234,7 @@ struct HeightToNormalFileOptions {
     FileOptions file = {};                                     ///< as ConvertMapFileOptions::file
     std::span<const std::uint8_t> content = {};                ///< the image, instead of the file `input`
     Sink sink = {};                                            ///< receives the output instead of a file
-    bool dry_run = false;                                      ///< everything except writing
+    bool dry_run = false;                                      ///< true: nothing is written
     Execution execution = {};
     HeightEncoding encoding = HeightEncoding::gray;
     /// Width and height of a texel without `mesh`, in the unit of the heights: meters for terrain. Must be positive.
@@ -260,10 +260,10 @@ Result<HeightToNormalFileReport> heightToNormalFile(const std::string& input, co
 
 /// Two-channel formats for x and y of a normal map; readers reconstruct z.
 enum class TextureFormat : std::uint32_t {
-    bc5 = 0,      ///< one byte per texel: desktops and consoles
-    eacRg11 = 1,  ///< one byte per texel: phones (OpenGL ES 3, Vulkan)
-    rg8 = 2,      ///< two bytes per texel, rounded: for uncompressed textures
-    astc4x4 = 3   ///< one byte per texel, x in red, green and blue, y in alpha: phones; requires the library astcenc
+    bc5 = 0,      ///< 8 bits per texel, for desktops and consoles
+    eacRg11 = 1,  ///< 8 bits per texel, for phones (OpenGL ES 3, Vulkan)
+    rg8 = 2,      ///< 16 bits per texel, rounded, for uncompressed textures
+    astc4x4 = 3   ///< 8 bits per texel, x in red, green and blue, y in alpha, for phones; requires the library astcenc
 };
 
 enum class TextureQuality : std::uint32_t {
@@ -289,7 +289,7 @@ struct CompressMapFileOptions {
     /// The image, instead of the file `input`; must stay valid during the call.
     std::span<const std::uint8_t> content = {};
     Sink sink = {};        ///< receives the output, a KTX2, instead of a file; without roughness
-    bool dry_run = false;  ///< everything except writing
+    bool dry_run = false;  ///< true: nothing is written
     Execution execution = {};
     MapAlpha alpha = MapAlpha::automatic;    ///< alpha of `input`
     DdsHeader dds_header = DdsHeader::dx10;  ///< header of outputs in DDS

@@ -66,12 +66,12 @@ struct MapReading {
 
 /// Returns the reading of a program by its name in lower case: the names of findConvention, and "three". `gltf`,
 /// `blender` and `opengl` are the default; `directx` has green down; `unreal` green down and two channels; `unity` (URP
-/// and HDRP) two channels; `godot` and `three` a bitangent per vertex and unit vectors, and `godot` two channels. From
-/// the shader sources of these programs as of 2026 (docs/reference/shaders.md). Returns null for any other name.
-/// Thread-safe.
+/// and HDRP) two channels; `godot` and `three` a bitangent per vertex and unit vectors, and `godot` two channels. These
+/// values come from the shader sources of these programs as of 2026 (docs/reference/shaders.md). Returns null for any
+/// other name. Thread-safe.
 const MapReading* findMapReading(const char* name);
 
-/// Front face of the high poly, among those that the ray of a low-poly point hits, that is baked.
+/// Rule that selects the baked face among the front faces of the high poly that a ray hits.
 enum class RayTarget : std::uint32_t {
     /// The first face from the cage inwards, which is visible from outside: bolts on a plate, not the plate below. If
     /// there is none, the nearest face beyond the cage.
@@ -123,7 +123,7 @@ struct LowPoly {
     StridedSpan<const Vec3> positions = {};
     StridedSpan<const Vec3> normals = {};   ///< stored normals: used for rays and for shading
     StridedSpan<const Vec4> tangents = {};  ///< empty with MapSpace::object
-    StridedSpan<const Vec2> uvs = {};       ///< v runs down
+    StridedSpan<const Vec2> uvs = {};       ///< v increases downwards
     StridedSpan<const Vec3> cage = {};      ///< start of the rays; empty: as in RayOptions
     /// One per triangle: its rays hit only triangles of the high poly with the same number, or any if either number is
     /// kEveryGroup. Empty, in either mesh: no restriction.
@@ -174,7 +174,7 @@ inline constexpr double kMissedDeg = 90;
 /// Angles between the shaded normal and the truth, in degrees.
 struct MapError {
     std::uint64_t point_count = 0;   ///< samples whose rays hit the high poly
-    std::uint64_t missed_count = 0;  ///< samples whose rays hit no front face of it
+    std::uint64_t missed_count = 0;  ///< samples whose rays hit no front face of the high poly
     /// Samples whose rays hit another front face of the high poly farther out than the one that is used, within the
     /// reach.
     std::uint64_t hidden_count = 0;
@@ -192,9 +192,9 @@ struct MapError {
     std::vector<float> heat = {};
 };
 
-/// Returns the default reach: a twentieth of the diagonal of the larger bounding box, or 1.5 times the difference
-/// between the boxes of the meshes, whichever is larger, but at most a quarter of the diagonal. 0 if the boxes do not
-/// intersect. Linear; thread-safe.
+/// Returns the default reach: a twentieth of the diagonal of the larger bounding box, or 1.5 times the largest distance
+/// between corresponding sides of the two boxes if that is larger, but at most a quarter of the diagonal. 0 if the
+/// boxes do not intersect. Linear; thread-safe.
 double chosenReach(const LowPoly& low, const HighPoly& high);
 
 /// Compares a map with the surface. The same result for any thread count. Memory: about 100 bytes per point, 200 per
@@ -243,10 +243,10 @@ struct MapSide {
     /// In object space only `green` is used.
     MapReading reading = {};
     StridedSpan<const Vec2> uvs = {};  ///< v increases downwards; empty: this side has no mesh
-    /// With MapSpace::tangent, as stored: need not be unit or orthogonal.
+    /// Frames as stored in the mesh, required for MapSpace::tangent. They need not have unit length or be orthogonal.
     StridedSpan<const Vec3> normals = {};
     StridedSpan<const Vec4> tangents = {};
-    /// Empty, or positions that distinguish triangles with equal UVs, such as mirrored halves.
+    /// Positions, which distinguish triangles with equal UVs, such as mirrored halves; may be empty.
     StridedSpan<const Vec3> positions = {};
     /// With MapSpace::object, one per triangle: the map's axes in the coordinates of the other side's frames. Need not
     /// be unit or orthogonal. Empty: the same coordinates.
@@ -256,8 +256,8 @@ struct MapSide {
 struct ConvertMapOptions {
     /// 8 or 16: texels that change are rounded to n / (2^bits - 1), n an integer. 32: not rounded.
     unsigned bits = 16;
-    /// For 8 bits and three channels: lengths of converted vectors that had such lengths. Others keep their length
-    /// within a twentieth, and so do those adjacent to vectors that differ by over 9 degrees.
+    /// With 8 bits and three channels: range of lengths for converted vectors whose old length is in this range. Other
+    /// vectors, and vectors that differ from an adjacent one by over 9 degrees, keep their length within a twentieth.
     TexelLengths lengths = TexelLengths::even;
     /// Width of the padding around triangles, in texels, that is converted with the nearest triangle. 0: only texels
     /// that bilinear filtering reads.
@@ -283,8 +283,8 @@ struct ConvertMapReport {
     /// Texels whose triangles on the two sides do not have equal corners and are over a fiftieth of the mesh's size
     /// apart in space, if both have positions: the sides are not the same surface with the same UV map.
     std::uint64_t apart = 0;
-    /// Angles between the shading after conversion and the shading of the unconverted map on the new side, over
-    /// `converted`.
+    /// Angles between the shading after conversion and the shading of the unconverted map on the new side, over the
+    /// converted texels.
     double mean_change_deg = 0, max_change_deg = 0;
     double half_step_deg = 0;  ///< half a quantization step of the output as an angle; 0 with 32 bits
     /// There are changes, but their mean is less than half a step: rounding will undo them.
@@ -428,7 +428,8 @@ struct BakedMap {
     MapError own_error = {};
 };
 
-/// Estimates the peak memory of a bake, in bytes; with `solve`, if all texels need rays between their centers.
+/// Estimates the peak memory of a bake, in bytes. With `solve`, assumes that all texels need rays between their
+/// centers.
 std::uint64_t bakeBytes(std::uint64_t low_triangles, std::uint64_t high_triangles, const BakeOptions& options);
 
 /// Bakes one image. The same texels for any thread count. Time: about 1 microsecond per ray, with 1 ray per texel or,

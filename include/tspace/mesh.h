@@ -33,7 +33,7 @@ struct IndexView {
 
     constexpr IndexView() = default;
     constexpr IndexView(const void* d, std::size_t n, IndexType t) : data(d), count(n), type(t) {}
-    /// From any contiguous container of 8-, 16- or 32-bit unsigned integers (array, std::vector, std::span); implicit.
+    /// Views any contiguous container of 8-, 16- or 32-bit unsigned integers (array, std::vector, std::span); implicit.
     template <class Container>
     requires std::is_constructible_v < std::span<const std::uint8_t>,
     const Container& > || std::is_constructible_v<std::span<const std::uint16_t>, const Container&> ||

@@ -41,9 +41,9 @@ struct NormalOptions {
 
     /// Maximum angle between the normals of two faces whose shared edge is smooth, in degrees, 0..180 (plus 1e-6 rad
     /// for rounding). Default: 180, because no angle suits all models: no hard edges (except from smoothing groups),
-    /// and all faces at a point are smoothed together, also faces that share no edge. `crease_auto`: derived from the
-    /// mesh. The angle lies in the widest gap between the angles of most edges and those of few edges; noise of
-    /// positions is filtered out first. NormalReport contains the angle that was used.
+    /// and all faces at a point are smoothed together, including faces that share only this point. `crease_auto`:
+    /// chosen for each mesh, as the middle of the widest gap in the histogram of edge angles, after noise of positions
+    /// is filtered out. NormalReport contains the angle that was used.
     float crease_angle_deg = 180.0f;
     /// One number per face, or empty. Faces are smoothed together only if their numbers are equal and not 0 (OBJ `s`),
     /// or, with `smoothing_groups_are_masks`, if they have a bit in common (3ds Max). Smoothing is transitive: if A is
@@ -52,12 +52,12 @@ struct NormalOptions {
     bool smoothing_groups_are_masks = false;
     /// true: weld vertices with equal positions (so UV seams stay smooth); false: weld by index only.
     bool weld_positions = true;
-    /// With `weld_positions`: maximum difference per coordinate, in the unit of positions, of positions that are welded
-    /// to the lowest vertex among them. For meshes closed by computed coordinates, such as a torus whose last ring has
-    /// sin(2 pi) = -2.4e-16 instead of 0. 0, the default: only equal positions. `weld_auto`: twice the spacing of
-    /// floats at the largest coordinate, and only at positions with an edge of at least 32 times that length. Vertices
-    /// are processed in order: each joins the lowest earlier vertex within the distance that has not joined another
-    /// one, so chains of close positions are not all welded.
+    /// With `weld_positions`: weld distance, in the unit of positions. Vertices whose positions differ by at most this
+    /// in each coordinate are welded to the one with the lowest index. Useful for meshes that are closed only up to
+    /// rounding, such as a torus whose last ring has sin(2 pi) = -2.4e-16 instead of 0. 0, the default: only equal
+    /// positions. `weld_auto`: twice the spacing of floats at the largest coordinate, and only at positions with an
+    /// edge of at least 32 times that length. Vertices are processed in order: each is welded to the first earlier
+    /// vertex within the distance that was not welded itself, so chains of close positions are not all welded together.
     float weld_distance = 0;
 
     // For `best` only:

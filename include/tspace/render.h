@@ -71,7 +71,7 @@ struct RenderOptions {
     FileOptions file = {};
     Execution execution = {};  ///< does not affect the image; an allocator is not used
     Sink sink = {};            ///< receives the PNG instead of a file
-    bool dry_run = false;      ///< everything but writing
+    bool dry_run = false;      ///< true: nothing is written
     /// Called between stages, and for each image of `turntable`, on the calling thread; may throw Cancelled.
     Progress progress = {};
 };

@@ -46,7 +46,7 @@ struct StridedSpan {
     constexpr StridedSpan(T* first, std::size_t n, std::size_t stride = sizeof(T))
         : data(first), count(n), stride_bytes(stride) {}
     constexpr StridedSpan(std::span<T> s) : data(s.data()), count(s.size()) {}
-    /// From any contiguous container of T (std::vector, std::array); implicit, as for std::span.
+    /// Views any contiguous container of T (std::vector, std::array); implicit, as for std::span.
     template <class Container>
     requires std::is_constructible_v<std::span<T>, Container&> constexpr StridedSpan(Container& c)
         : StridedSpan(std::span<T>(c)) {}

@@ -181,8 +181,8 @@ class TangentPlan {
 /// makeIndexedFrames for all steps). Tangents that are not finite or not unit are left as the method computed them:
 /// sanitizeTangents repairs them.
 /// The result has the same bits as planTangents followed by evaluateTangents on the mesh's own pose, but most meshes
-/// take a faster path. A mesh with several index lists (MeshView::normal_indices, uv_indices) has the results of the
-/// mesh that its caller would otherwise have unrolled.
+/// take a faster path. A mesh with several index lists (MeshView::normal_indices, uv_indices) has the results of
+/// the equivalent mesh with one list.
 /// Errors: those of validate(); missingAttribute, countMismatch (outputs), nullData, invalidOption, outOfMemory;
 /// tooLarge also for more than 715,827,882 triangles (methods with groups: mikktspace, uniform, angle, area, fast,
 /// best). The contents of the outputs are undefined until the call returns, and after an error.
@@ -190,14 +190,14 @@ class TangentPlan {
 /// count and SIMD target.
 ///
 /// Scratch memory on a triangle mesh: `lengyel` 16 bytes per vertex, or 8 with OutputDomain::vertex (24 if the
-/// tangents' stride is not 16). `mikktspace`, `uniform`, `angle` and `area` about 36 bytes per vertex without equal
-/// vertices, 46 with some, 80 if more than tangents is requested, and 32 per triangle for unindexed corners (more if
-/// the tangents' stride is not 16: see docs/reference/memory.md); up to about 130 bytes per triangle for meshes that
-/// need the general path (thresholds, values that are not finite), and about 150 more for each triangle around a vertex
-/// with special cases (several groups, uncertain splits, degenerate triangles). `fast` and `best` need about as much,
-/// and up to 2 MB per thread; `best` 32 bytes more per group for each refinement step. FrameShape::symmetric adds 12
-/// bytes per output unless bitangents are requested, and a mesh with several index lists about 40 bytes per corner of
-/// operator new.
+/// tangents' stride is not 16). `mikktspace`, `uniform`, `angle` and `area` about 36 bytes per vertex if no two
+/// vertices are equal, 46 otherwise, 80 if outputs other than tangents are requested, and 32 per triangle for unindexed
+/// corners (more if the tangents' stride is not 16: see docs/reference/memory.md); up to about 130 bytes per triangle
+/// for meshes that need the general path (thresholds, values that are not finite), and about 150 more for each triangle
+/// around a vertex with special cases (several groups, uncertain splits, degenerate triangles). `fast` and `best` need
+/// about as much, and up to 2 MB per thread; `best` 32 bytes more per group for each refinement step.
+/// FrameShape::symmetric adds 12 bytes per output unless bitangents are requested, and a mesh with several index lists
+/// adds about 40 bytes per corner, from operator new.
 Result<TangentReport> generateTangents(const MeshView& mesh, const TangentOptions& options, const TangentOutput& out,
                                        const Execution& execution = {});
 
@@ -282,11 +282,11 @@ struct SanitizeReport {
 /// tangent from UVs with these bits has been projected along N, so it is perpendicular to N.
 ///
 /// Fixes, in this order: the tangent's own direction, if it has one that is not parallel to N; the tangent of the first
-/// valid corner of the same face; of the first valid corner at the same position (in corner order); a basis from N.
-/// Signs inside a face: the majority of the valid corners decides (of those whose N has a direction, if there are any);
-/// on a tie, the first of them. If N has no direction, corners at one position that take a tangent from elsewhere take
-/// the tangent of the first of them with their sign.
-/// The result does not depend on the indexing of vertices, so repairing a split mesh again changes nothing.
+/// valid corner of the same face; that of the first valid corner at the same position (in corner order); a basis from
+/// N. Signs inside a face: the majority of the valid corners decides (of those whose N has a direction, if there are
+/// any); on a tie, the first of them. If N has no direction, corners at one position that do not use their own
+/// direction, and have the same sign, share the tangent of the first of them. The result does not depend on the
+/// indexing of vertices, so repairing a split mesh again changes nothing.
 ///
 /// mesh       positions and normals; UVs are ignored
 /// tangents   one per corner, read and written; corners of faces with fewer than 3 corners are not changed

@@ -230,8 +230,8 @@ typedef struct tspace_Execution {
     /* Allocates scratch memory and plans. Null: operator new, and no memory is kept between calls. With a
      * tspace_Arena, consecutive calls take a tenth less time (tspace_generateTangents with more than 4096 corners). */
     const tspace_Allocator* allocator;
-    /* For tests and measurements. A target that this CPU does not support is replaced by the best one with a lower
-     * number. */
+    /* SIMD target, for tests and measurements. A target that this CPU does not support is replaced by the best one
+     * with a lower number. */
     tspace_SimdTarget simd;
     uint32_t reserved;
 } tspace_Execution;
@@ -323,7 +323,7 @@ typedef struct tspace_Convention {
  * In C: name is zero-terminated; out is written on success only. */
 tspace_ErrorCode tspace_findConvention(const char* name, tspace_Convention* out, tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Returns the factor (+1 or -1) from the raw sign (of dP/dv for the UVs as given) to the stored sign. */
+/* Returns the factor (+1 or -1) that converts the raw sign (of dP/dv for the UVs as given) to the stored sign. */
 float tspace_signFactor(tspace_Convention convention) TSPACE_NOEXCEPT;
 /* Returns the factor (+1 or -1) that makes cross(P1-P0, P2-P0) point outside. */
 float tspace_normalFactor(tspace_Convention convention) TSPACE_NOEXCEPT;
@@ -401,7 +401,7 @@ typedef struct tspace_TangentOptions {
     tspace_Method method; /* the default is what bakers and glTF expect */
     /* Determines the stored sign; there is no default: "gltf" for glTF; "opengl" stores the raw sign, as the
      * reference does. If unset: INVALID_OPTION.
-     * In C: by tspace_findConvention. */
+     * In C: set by tspace_findConvention. */
     tspace_Convention convention;
     tspace_Ngons ngons; /* by default every corner gets a tangent */
     /* TSPACE_DOMAIN_VERTEX for TSPACE_METHOD_LENGYEL and TSPACE_METHOD_BASIS only: other methods have several
@@ -429,8 +429,8 @@ typedef struct tspace_TangentOptions {
 /* In C: initializes options like TSPACE_INIT, for languages without macros.
  * struct_size  size of the struct as declared by the caller, in bytes. If this version does not support the size:
  *              INVALID_OPTION, and nothing is written.
- * Functions reject zero-filled options (INVALID_OPTION): without a convention, and also with one if
- * angular_threshold_deg and refine are both 0. Either may be 0 alone; no method uses both.
+ * Functions reject zero-filled options (INVALID_OPTION): options without a convention, and options in which
+ * angular_threshold_deg and refine are both 0. Either may be 0 alone, because no method uses both.
  * Errors: NULL_DATA, INVALID_OPTION. */
 tspace_ErrorCode tspace_initTangentOptions(tspace_TangentOptions* options, uint32_t struct_size,
                                            tspace_Error* error) TSPACE_NOEXCEPT;
@@ -485,7 +485,7 @@ typedef struct tspace_TangentOutput {
  * left as the method computed them: tspace_sanitizeTangents repairs them.
  * The result has the same bits as tspace_planTangents followed by tspace_evaluateTangents on the mesh's own pose,
  * but most meshes take a faster path. A mesh with several index lists (tspace_Mesh.normal_indices, uv_indices) has
- * the results of the mesh that its caller would otherwise have unrolled.
+ * the results of the equivalent mesh with one list.
  * Errors: those of tspace_validate; MISSING_ATTRIBUTE, COUNT_MISMATCH (outputs), NULL_DATA, INVALID_OPTION,
  * OUT_OF_MEMORY; TOO_LARGE also for more than 715,827,882 triangles (methods with groups: mikktspace, uniform,
  * angle, area, fast, best). The contents of the outputs are undefined until the call returns, and after an error.
@@ -494,14 +494,14 @@ typedef struct tspace_TangentOutput {
  *
  * Scratch memory on a triangle mesh: TSPACE_METHOD_LENGYEL 16 bytes per vertex, or 8 with TSPACE_DOMAIN_VERTEX (24
  * if the tangents' stride is not 16). TSPACE_METHOD_MIKKTSPACE, TSPACE_METHOD_UNIFORM, TSPACE_METHOD_ANGLE and
- * TSPACE_METHOD_AREA about 36 bytes per vertex without equal vertices, 46 with some, 80 if more than tangents is
- * requested, and 32 per triangle for unindexed corners (more if the tangents' stride is not 16: see
+ * TSPACE_METHOD_AREA about 36 bytes per vertex if no two vertices are equal, 46 otherwise, 80 if outputs other than
+ * tangents are requested, and 32 per triangle for unindexed corners (more if the tangents' stride is not 16: see
  * docs/reference/memory.md); up to about 130 bytes per triangle for meshes that need the general path (thresholds,
  * values that are not finite), and about 150 more for each triangle around a vertex with special cases (several
  * groups, uncertain splits, degenerate triangles). TSPACE_METHOD_FAST and TSPACE_METHOD_BEST need about as much, and
  * up to 2 MB per thread; TSPACE_METHOD_BEST 32 bytes more per group for each refinement step. TSPACE_FRAME_SYMMETRIC
- * adds 12 bytes per output unless bitangents are requested, and a mesh with several index lists about 40 bytes per
- * corner of operator new. */
+ * adds 12 bytes per output unless bitangents are requested, and a mesh with several index lists adds about 40 bytes
+ * per corner, from operator new. */
 tspace_ErrorCode tspace_generateTangents(const tspace_Mesh* mesh, const tspace_TangentOptions* options,
                                          const tspace_TangentOutput* out, const tspace_Execution* execution,
                                          tspace_TangentReport* report, tspace_Error* error) TSPACE_NOEXCEPT;
@@ -707,8 +707,8 @@ tspace_Vec3 tspace_decodeNormal(tspace_Vec3 texel, float scale, tspace_Green gre
 tspace_Vec2 tspace_tileUv(tspace_Vec2 uv, tspace_Vec2 tiling, tspace_Vec2 offset) TSPACE_NOEXCEPT;
 
 /* Returns Lambert's cosine in tangent space: max(0, n.l), where n is the decoded texel and l the object-space
- * direction towards the light, transformed to tangent space by the orthonormalized frame. The CPU reference for
- * shaders. */
+ * direction towards the light, transformed to tangent space by the orthonormalized frame. This is the CPU reference
+ * for shaders. */
 float tspace_lambert(tspace_Frame frame, tspace_Vec3 light_direction, tspace_Vec3 tangent_space_normal) TSPACE_NOEXCEPT;
 
 /* Returns the object-space normal for a decoded texel: unit(T x + B y + N z) with the orthonormalized frame. */
@@ -746,9 +746,9 @@ typedef struct tspace_NormalOptions {
     tspace_Convention convention; /* Handedness and winding define the outside of faces. Default: glTF. */
     /* Maximum angle between the normals of two faces whose shared edge is smooth, in degrees, 0..180 (plus 1e-6 rad
      * for rounding). Default: 180, because no angle suits all models: no hard edges (except from smoothing groups),
-     * and all faces at a point are smoothed together, also faces that share no edge. -1: derived from the mesh. The
-     * angle lies in the widest gap between the angles of most edges and those of few edges; noise of positions is
-     * filtered out first. tspace_NormalReport contains the angle that was used. Default: 180. */
+     * and all faces at a point are smoothed together, including faces that share only this point. -1: chosen for
+     * each mesh, as the middle of the widest gap in the histogram of edge angles, after noise of positions is
+     * filtered out. tspace_NormalReport contains the angle that was used. Default: 180. */
     float crease_angle_deg;
     /* One number per face, or empty. Faces are smoothed together only if their numbers are equal and not 0 (OBJ
      * `s`), or, with `smoothing_groups_are_masks`, if they have a bit in common (3ds Max). Smoothing is transitive:
@@ -771,20 +771,20 @@ typedef struct tspace_NormalOptions {
      * to vertex, which cannot be distinguished from detail. Hard edges are preserved: no surface is fitted across
      * them. */
     float denoise;
-    /* With `weld_positions`: maximum difference per coordinate, in the unit of positions, of positions that are
-     * welded to the lowest vertex among them. For meshes closed by computed coordinates, such as a torus whose last
-     * ring has sin(2 pi) = -2.4e-16 instead of 0. 0, the default: only equal positions. -1: twice the spacing of
-     * floats at the largest coordinate, and only at positions with an edge of at least 32 times that length.
-     * Vertices are processed in order: each joins the lowest earlier vertex within the distance that has not joined
-     * another one, so chains of close positions are not all welded. */
+    /* With `weld_positions`: weld distance, in the unit of positions. Vertices whose positions differ by at most
+     * this in each coordinate are welded to the one with the lowest index. Useful for meshes that are closed only up
+     * to rounding, such as a torus whose last ring has sin(2 pi) = -2.4e-16 instead of 0. 0, the default: only equal
+     * positions. -1: twice the spacing of floats at the largest coordinate, and only at positions with an edge of at
+     * least 32 times that length. Vertices are processed in order: each is welded to the first earlier vertex within
+     * the distance that was not welded itself, so chains of close positions are not all welded together. */
     float weld_distance;
 } tspace_NormalOptions;
 
 /* In C: initializes options like TSPACE_INIT, for languages without macros.
  * struct_size  size of the struct as declared by the caller, in bytes. If this version does not support the size:
  *              INVALID_OPTION, and nothing is written.
- * Functions reject zero-filled options (INVALID_OPTION): weighting, crease_angle_deg, weld_positions and refine all 0.
- * TSPACE_NORMAL_WEIGHTING_FLAT, which is 0, uses none of the others.
+ * Functions reject zero-filled options (INVALID_OPTION): options in which weighting, crease_angle_deg, weld_positions
+ * and refine are all 0. TSPACE_NORMAL_WEIGHTING_FLAT, which is 0, uses none of the other three, so keep their defaults.
  * Errors: NULL_DATA, INVALID_OPTION. */
 tspace_ErrorCode tspace_initNormalOptions(tspace_NormalOptions* options, uint32_t struct_size,
                                           tspace_Error* error) TSPACE_NOEXCEPT;
@@ -890,7 +890,7 @@ typedef struct tspace_SanitizeReport {
     uint64_t bad_normal_count;     /* corners whose N is zero or not finite: only a unit tangent is guaranteed */
     uint64_t mended_count;         /* Returns the number of corners that were written: the sum of the causes. */
     /* exactly (1, 0, 0), and not perpendicular to N.
-     * In C: its cause is tested after parallel_count. */
+     * In C: this cause is tested after that of parallel_count. */
     uint64_t placeholder_count;
 } tspace_SanitizeReport;
 
@@ -903,11 +903,11 @@ typedef struct tspace_SanitizeReport {
  * tangent from UVs with these bits has been projected along N, so it is perpendicular to N.
  *
  * Fixes, in this order: the tangent's own direction, if it has one that is not parallel to N; the tangent of the
- * first valid corner of the same face; of the first valid corner at the same position (in corner order); a basis
- * from N. Signs inside a face: the majority of the valid corners decides (of those whose N has a direction, if there
- * are any); on a tie, the first of them. If N has no direction, corners at one position that take a tangent from
- * elsewhere take the tangent of the first of them with their sign.
- * The result does not depend on the indexing of vertices, so repairing a split mesh again changes nothing.
+ * first valid corner of the same face; that of the first valid corner at the same position (in corner order); a
+ * basis from N. Signs inside a face: the majority of the valid corners decides (of those whose N has a direction, if
+ * there are any); on a tie, the first of them. If N has no direction, corners at one position that do not use their
+ * own direction, and have the same sign, share the tangent of the first of them. The result does not depend on the
+ * indexing of vertices, so repairing a split mesh again changes nothing.
  *
  * mesh       positions and normals; UVs are ignored
  * tangents   4 floats each: one per corner, read and written; corners of faces with fewer than 3 corners are not
@@ -923,7 +923,7 @@ tspace_ErrorCode tspace_sanitizeTangents(const tspace_Mesh* mesh, const tspace_S
 typedef struct tspace_CornerAttribute {
     const float* data;   /* In C: may be null only if there are no corners. */
     size_t stride_bytes; /* distance between corners; at least 4 * component_count. In C: 0 means tightly packed. */
-    uint32_t component_count; /* 1..16 */
+    uint32_t component_count; /* number of floats, 1 to 16 */
     /* 0: corners are equal only if all bits are. Above 0: equal if every component differs by at most this from the
      * first corner of the vertex (so rounding noise does not split); NaN equals only its own bits. */
     float tolerance;
@@ -1111,7 +1111,7 @@ enum {
     /* 6 bytes, N 0.0037 and T 0.0042: ((i * 46339 + j) << 17) | (angle << 1) | mirrored; i, j on a warped
      * octahedron, 65,536 angles. */
     TSPACE_FRAME_FORMAT_FRAME48 = 1,
-    /* 8 bytes, N 0.0001 and T 0.00015: i:21 | j:21 | angle:21 | mirrored:1 from the top; as frame48, finer. */
+    /* 8 bytes, N 0.0001 and T 0.00015: i:21 | j:21 | angle:21 | mirrored:1 from the top; like frame48, but finer. */
     TSPACE_FRAME_FORMAT_FRAME64 = 2,
     /* 4 bytes, N 0.15 and T 0.165: i:10 | j:10 | angle:11 | mirrored:1 from the top; the 4-byte format that is
      * cheapest to decode. */

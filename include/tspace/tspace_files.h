@@ -6,7 +6,8 @@
  *     {"method": "best", "crease": 60, "overwrite": true, "threads": 2, "ignore": ["tangentsUnused"]}
  * A flag is true or false; every other option is a number or a string with the value of the command line. Null and ""
  * mean no options: the tool's defaults, except that threads is 1. `tspace help generate` and docs/reference/tool.md
- * list the options; those for the command line only (names and numbers of files, text, SARIF) do not exist here.
+ * list the options. Options that concern only the command line (input and output names, batches, text and SARIF
+ * reports) are not accepted.
  * Errors of all functions: INVALID_OPTION (an unknown option or an invalid value, with the tool's message).
  *
  * Reports are the JSON that the tool prints with --json (docs/reference/json.md), here always for one file. A report
@@ -105,10 +106,11 @@ tspace_ErrorCode tspace_identifyBytes(const tspace_Model* model, const char* opt
 /* Reads two models and compares their frames corner by corner.
  *
  * Primitives are paired by their triangles, as sets of corner positions (and UVs): the order of triangles and
- * vertices, splits and indices do not matter. The rest is paired by name, then by position in the file if triangle
- * counts are equal; their triangles are paired if their positions agree within 1/1000 of the primitive's size after
- * both primitives are scaled to the same box, as after quantization. Errors: those of tspace_generateFile for
- * reading; `element` is 0 if A is at fault, 1 if B is. Expected time n log n in the number of corners. Thread-safe.
+ * vertices, splits and indices do not matter. Other primitives are paired by name, then by position in the file if
+ * triangle counts are equal; their triangles are paired if their positions agree within 1/1000 of the primitive's
+ * size after both primitives are scaled to the same box, as after quantization. Errors: those of tspace_generateFile
+ * for reading; `element` is 0 if A is at fault, 1 if B is. Expected time n log n in the number of corners.
+ * Thread-safe.
  * In C: options of `tspace diff`, report tspace.diff/1. */
 tspace_ErrorCode tspace_diffFiles(const char* a, const char* b, const char* options, tspace_Bytes* report,
                                   tspace_Error* error) TSPACE_NOEXCEPT;

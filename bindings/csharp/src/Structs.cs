@@ -82,9 +82,9 @@ namespace Tspace
         public Convention Convention { get; set; }
         /// <summary>Maximum angle between the normals of two faces whose shared edge is smooth, in degrees, 0..180
         /// (plus 1e-6 rad for rounding). Default: 180, because no angle suits all models: no hard edges (except from
-        /// smoothing groups), and all faces at a point are smoothed together, also faces that share no edge. -1:
-        /// derived from the mesh. The angle lies in the widest gap between the angles of most edges and those of few
-        /// edges; noise of positions is filtered out first. NormalReport contains the angle that was used.</summary>
+        /// smoothing groups), and all faces at a point are smoothed together, including faces that share only this
+        /// point. -1: chosen for each mesh, as the middle of the widest gap in the histogram of edge angles, after
+        /// noise of positions is filtered out. NormalReport contains the angle that was used.</summary>
         public float CreaseAngleDeg { get; set; }
         /// <summary>true: weld vertices with equal positions (so UV seams stay smooth); false: weld by index
         /// only.</summary>
@@ -101,12 +101,13 @@ namespace Tspace
         /// vertex to vertex, which cannot be distinguished from detail. Hard edges are preserved: no surface is
         /// fitted across them.</summary>
         public float Denoise { get; set; }
-        /// <summary>With `weld_positions`: maximum difference per coordinate, in the unit of positions, of positions
-        /// that are welded to the lowest vertex among them. For meshes closed by computed coordinates, such as a
-        /// torus whose last ring has sin(2 pi) = -2.4e-16 instead of 0. 0, the default: only equal positions. -1:
-        /// twice the spacing of floats at the largest coordinate, and only at positions with an edge of at least 32
-        /// times that length. Vertices are processed in order: each joins the lowest earlier vertex within the
-        /// distance that has not joined another one, so chains of close positions are not all welded.</summary>
+        /// <summary>With `weld_positions`: weld distance, in the unit of positions. Vertices whose positions differ
+        /// by at most this in each coordinate are welded to the one with the lowest index. Useful for meshes that
+        /// are closed only up to rounding, such as a torus whose last ring has sin(2 pi) = -2.4e-16 instead of 0. 0,
+        /// the default: only equal positions. -1: twice the spacing of floats at the largest coordinate, and only at
+        /// positions with an edge of at least 32 times that length. Vertices are processed in order: each is welded
+        /// to the first earlier vertex within the distance that was not welded itself, so chains of close positions
+        /// are not all welded together.</summary>
         public float WeldDistance { get; set; }
         /// <summary>Number of threads; int.MaxValue: one per core. Results have the same bits for any
         /// number.</summary>

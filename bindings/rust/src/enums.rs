@@ -103,7 +103,7 @@ pub enum FrameFormat {
     /// 6 bytes, N 0.0037 and T 0.0042: ((i * 46339 + j) << 17) | (angle << 1) | mirrored; i, j on a warped
     /// octahedron, 65,536 angles.
     Frame48 = 1,
-    /// 8 bytes, N 0.0001 and T 0.00015: i:21 | j:21 | angle:21 | mirrored:1 from the top; as frame48, finer.
+    /// 8 bytes, N 0.0001 and T 0.00015: i:21 | j:21 | angle:21 | mirrored:1 from the top; like frame48, but finer.
     Frame64 = 2,
     /// 4 bytes, N 0.15 and T 0.165: i:10 | j:10 | angle:11 | mirrored:1 from the top; the 4-byte format that is
     /// cheapest to decode.

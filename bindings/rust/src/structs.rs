@@ -83,9 +83,9 @@ pub struct NormalOptions<'a> {
     pub convention: Convention,
     /// Maximum angle between the normals of two faces whose shared edge is smooth, in degrees, 0..180 (plus 1e-6 rad
     /// for rounding). Default: 180, because no angle suits all models: no hard edges (except from smoothing groups),
-    /// and all faces at a point are smoothed together, also faces that share no edge. -1: derived from the mesh. The
-    /// angle lies in the widest gap between the angles of most edges and those of few edges; noise of positions is
-    /// filtered out first. NormalReport contains the angle that was used.
+    /// and all faces at a point are smoothed together, including faces that share only this point. -1: chosen for
+    /// each mesh, as the middle of the widest gap in the histogram of edge angles, after noise of positions is
+    /// filtered out. NormalReport contains the angle that was used.
     pub crease_angle_deg: f32,
     /// One number per face, or empty. Faces are smoothed together only if their numbers are equal and not 0 (OBJ
     /// `s`), or, with `smoothing_groups_are_masks`, if they have a bit in common (3ds Max). Smoothing is transitive:
@@ -105,12 +105,13 @@ pub struct NormalOptions<'a> {
     /// of the measured noise, without that check; 3 suits noise that is smooth from vertex to vertex, which cannot
     /// be distinguished from detail. Hard edges are preserved: no surface is fitted across them.
     pub denoise: f32,
-    /// With `weld_positions`: maximum difference per coordinate, in the unit of positions, of positions that are
-    /// welded to the lowest vertex among them. For meshes closed by computed coordinates, such as a torus whose last
-    /// ring has sin(2 pi) = -2.4e-16 instead of 0. 0, the default: only equal positions. -1: twice the spacing of
-    /// floats at the largest coordinate, and only at positions with an edge of at least 32 times that length.
-    /// Vertices are processed in order: each joins the lowest earlier vertex within the distance that has not joined
-    /// another one, so chains of close positions are not all welded.
+    /// With `weld_positions`: weld distance, in the unit of positions. Vertices whose positions differ by at most
+    /// this in each coordinate are welded to the one with the lowest index. Useful for meshes that are closed only
+    /// up to rounding, such as a torus whose last ring has sin(2 pi) = -2.4e-16 instead of 0. 0, the default: only
+    /// equal positions. -1: twice the spacing of floats at the largest coordinate, and only at positions with an
+    /// edge of at least 32 times that length. Vertices are processed in order: each is welded to the first earlier
+    /// vertex within the distance that was not welded itself, so chains of close positions are not all welded
+    /// together.
     pub weld_distance: f32,
     /// Default: the calling thread.
     pub execution: Execution,
