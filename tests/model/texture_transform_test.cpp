@@ -53,6 +53,26 @@ TEST(TextureTransform, FlipsTheSignWhereItMirrors) {
     expectAll(tangentsOf(transformed({{"rotation", kQuarter}, {"scale", {6, -2}}})), {0, 1, 0, -1});
 }
 
+/// Adds correct tangents for the UVs without the transform.
+GltfBuilder withTangentsOfUvs(GltfBuilder builder) {
+    std::vector<float> tangents;
+    for (int v = 0; v < 25; ++v) tangents.insert(tangents.end(), {1, 0, 0, 1});
+    firstPrimitive(builder)["attributes"]["TANGENT"] = builder.addFloats(tangents, 4);
+    return builder;
+}
+
+TEST(TextureTransform, ThatTangentsIgnoredDoesNotInvertSignsWhenNormalsAreRecomputed) {
+    GenerateOptions options;
+    options.normals.overwrite = true;
+    const auto recomputed = [&](const Json& transform) {
+        return tangentsOf(withTangentsOfUvs(transformed(transform)), options);
+    };
+    expectAll(recomputed({{"scale", {-1, 1}}}), {-1, 0, 0, -1});
+    expectAll(recomputed({{"scale", {-2, 3}}}), {-1, 0, 0, -1});
+    expectAll(recomputed({{"rotation", kQuarter}, {"scale", {6, -2}}}), {0, 1, 0, -1});
+    expectAll(recomputed({{"rotation", kQuarter}}), {0, -1, 0, 1});
+}
+
 TEST(TextureTransform, ScalesBeforeItRotates) {
     // u' = c su u + s sv v and v' = -s su u + c sv v, with u = x and v = -y. Along T, v' is constant and u' increases.
     const double c = std::cos(0.4), s = std::sin(0.4), su = 3, sv = 0.5;

@@ -250,14 +250,19 @@ std::vector<bool> findVerticesWithSign(const PoolView& vertices, std::span<const
 }
 
 /// Returns whether at least two thirds of the existing tangents have the opposite sign, as in files whose green points
-/// down. `have_signs`: for each new vertex, whether UVs determine its sign; others do not count.
+/// down. Tangents more than 45 degrees from the new ones follow other UVs, for example those before a mirroring
+/// KHR_texture_transform, and are not counted as inverted. `have_signs`: for each new vertex, whether UVs determine its
+/// sign; others do not count.
 bool haveInvertedSigns(std::span<const Vec4> old, const PoolFrames& frames, const std::vector<bool>& have_signs) {
     if (old.empty()) return false;
+    constexpr float kCos45 = 0.70710678f;
     std::size_t inverted = 0, count = 0;
     for (std::size_t v = 0; v < frames.tangents.size(); ++v) {
         if (!have_signs[v]) continue;
         ++count;
-        inverted += frames.tangents[v].w * old[frames.source_vertices[v]].w < 0 ? 1U : 0U;
+        const Vec4 &now = frames.tangents[v], &before = old[frames.source_vertices[v]];
+        const bool has_its_direction = dot(xyz(now), xyz(before)) > kCos45 * length(xyz(before));
+        inverted += has_its_direction && now.w * before.w < 0 ? 1U : 0U;
     }
     return count != 0 && 3 * inverted >= 2 * count;
 }
