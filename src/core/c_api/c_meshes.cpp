@@ -49,9 +49,9 @@ struct OwnedFrames : tspace_IndexedFrames {
     explicit OwnedFrames(IndexedFrames&& made)
         : tspace_IndexedFrames(),
           frames(std::move(made)),
-          normals_made_of(toReport(frames.report.normals)),
-          tangents_made_of(toReport(frames.report.tangents)),
-          mended(toReport(frames.report.sanitize)) {
+          own_normal_report(toReport(frames.report.normals)),
+          own_tangent_report(toReport(frames.report.tangents)),
+          own_sanitize_report(toReport(frames.report.sanitize)) {
         indices = frames.indices.data();
         corner_count = frames.indices.size();
         source_vertices = frames.source_vertices.data();
@@ -59,17 +59,17 @@ struct OwnedFrames : tspace_IndexedFrames {
         normals = frames.normals.empty() ? nullptr : &frames.normals.front().x;
         tangents = frames.tangents.empty() ? nullptr : &frames.tangents.front().x;
         vertex_count = frames.vertexCount();
-        normal_report = frames.report.normals_made ? &normals_made_of : nullptr;
-        tangent_report = &tangents_made_of;
-        sanitize_report = &mended;
+        normal_report = frames.report.normals_made ? &own_normal_report : nullptr;
+        tangent_report = &own_tangent_report;
+        sanitize_report = &own_sanitize_report;
     }
     OwnedFrames(const OwnedFrames&) = delete;
     OwnedFrames& operator=(const OwnedFrames&) = delete;
 
     IndexedFrames frames;
-    tspace_NormalReport normals_made_of;
-    tspace_TangentReport tangents_made_of;
-    tspace_SanitizeReport mended;
+    tspace_NormalReport own_normal_report;
+    tspace_TangentReport own_tangent_report;
+    tspace_SanitizeReport own_sanitize_report;
 };
 
 Error checkOptions(const tspace_IndexedFramesOptions* given) {

@@ -393,8 +393,7 @@ TEST(Obj, TextThatIsNotUtf8KeepsItsBytesAndGivesAWarning) {
     EXPECT_FALSE(mentions(plain.report.warnings, "not UTF-8"));
 }
 
-/// 95 5c (hexadecimal) is one character in Shift-JIS. b1 5c is one character in GBK, but a half-width katakana and a
-/// separator in Shift-JIS.
+/// 95 5c is one character in Shift-JIS. b1 5c is one in GBK, but a half-width katakana and a separator in Shift-JIS.
 TEST(Obj, BytesOfABackslashInNamesOfFilesAreKept) {
     const std::string faces = std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n";
     for (const auto& [named, stored] : {std::pair{"\x95\x5c.png", "\x95\x5c.png"},
@@ -492,8 +491,7 @@ TEST(Obj, MalformedFilesAreRejectedWithTheLine) {
     }
 }
 
-/// Such files exist: normals that are missing although faces have indices of them, or index 0 for a corner without a
-/// normal.
+/// Such files exist: faces with indices of missing normals, or index 0 for a corner without a normal.
 TEST(Obj, FacesWithMissingUvsOrNormalsHaveNone) {
     const std::string vertices = std::string(kQuad) + "vn 0 0.6 0.8\nf 1/1/1 2/2/1 4/4/1\n";
     const std::string rest = "f 2/2/1 3/3/1 4/4/1\n";
@@ -537,8 +535,7 @@ double secondsToPrepare(int face_count) {
 }
 
 TEST(ObjTime, GrowsLinearlyWithTheNumberOfFaces) {
-    // Ten times the faces must not take forty times the time. A search through the rest of the file would take a
-    // hundred times.
+    // Ten times the faces take ten times the time. A search through the rest of the file would take a hundred times.
     EXPECT_LT(secondsToPrepare(400000), 40 * secondsToPrepare(40000) + 0.05);
 }
 
