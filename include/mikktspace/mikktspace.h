@@ -1,4 +1,4 @@
 /* SPDX-License-Identifier: MIT */
-/* The drop-in for programs that include "mikktspace/mikktspace.h", or <mikktspace.h> with this folder on their
- * include path. */
+/* Drop-in replacement header for programs that include "mikktspace/mikktspace.h", or <mikktspace.h> with this folder on
+ * their include path. */
 #include "../tspace/compat/mikktspace.h"

@@ -158,12 +158,12 @@ Result<BakeFileReport> bakeFile(const std::string& low, const std::string& high,
 
 struct MapErrorFileOptions {
     MapErrorOptions map = {};                                  ///< interpretation and measurement of the map
-    TangentOptions tangents{.convention = conventions::gltf};  ///< as in BakeFileOptions
+    TangentOptions tangents{.convention = conventions::gltf};  ///< same meaning as in BakeFileOptions
     NormalOptions normals{.weighting = NormalWeighting::flat};
     FileOptions file = {};
-    std::string cage = {}, skew = {}, match = "names";  ///< as in BakeFileOptions
-    bool ignore_high_maps = false;                      ///< as in BakeFileOptions
-    std::optional<Green> high_green = {};               ///< as in BakeFileOptions
+    std::string cage = {}, skew = {}, match = "names";  ///< same meaning as in BakeFileOptions
+    bool ignore_high_maps = false;                      ///< same meaning as in BakeFileOptions
+    std::optional<Green> high_green = {};               ///< same meaning as in BakeFileOptions
     bool two_channels = false;  ///< true: z is computed from x and y; sets `map.reading.two_channels` for any reading
     std::string material = {};  ///< only triangles of the material with this name; empty: all
     std::uint32_t tile = 0;     ///< only triangles of this UDIM tile, from 1001; 0: all

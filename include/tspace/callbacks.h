@@ -15,9 +15,9 @@ namespace tspace {
 /// also applies to Progress, FindFile and all other callbacks: no exception leaves the library.
 using Sink = std::function<bool(std::span<const std::uint8_t>)>;
 
-/// Called periodically during long work, by the thread of the call. `done` of `total` steps are complete; `what` names
-/// the current step ("computing tangents"). It may throw Cancelled, which ends the call with ErrorCode::cancelled,
-/// without a result and without changes on disk.
+/// Called periodically during long work, on the thread of the caller. `done` of `total` steps are complete; `what`
+/// names the current step ("computing tangents"). It may throw Cancelled, which ends the call with
+/// ErrorCode::cancelled, without a result and without changes on disk.
 using Progress = std::function<void(const char* what, std::uint64_t done, std::uint64_t total)>;
 
 }  // namespace tspace

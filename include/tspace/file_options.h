@@ -33,8 +33,8 @@ struct FileOptions {
     /// Maximum address space of the importer, in bytes; the limit for a file is at most 192 MiB plus 256 times its
     /// size.
     std::uint64_t import_max_memory_bytes = std::uint64_t{16} << 30;
-    /// Maximum processor time of the importer in seconds; wall-clock time: twice that. 0: 2 s, plus 1 s per MiB of the
-    /// file.
+    /// Time limit of the importer in seconds, for processor time and for wall-clock time. 0: 2 s plus 1 s per MiB of
+    /// the file for processor time, and ten times that for wall-clock time.
     std::uint32_t import_max_seconds = 0;
     /// Approximate memory limit per file. The need is estimated first; more than the limit is rejected (tooLarge). 0:
     /// 64 MB plus 16 times the bytes of the file, of the files it refers to, and of its unpacked geometry. Other values

@@ -87,11 +87,11 @@ struct GenerateOptions {
         /// in group 0 are flat). false, or a file without `s` lines: `compute` applies.
         bool use_smoothing_groups = true;
         /// false: computed normals, with any weighting except `flat`, are smooth across the border of two primitives of
-        /// a mesh that form one surface (they share edges, by equal positions, as neighboring triangles do). If the
-        /// other primitive has normals, these are kept, and computed ones adopt them at the border within 30 degrees
-        /// and the crease angle. Tangents are computed for each primitive separately, as bakers do. true: normals are
-        /// also computed for each primitive separately, and the border is a seam. OBJ: normals are smooth over the
-        /// whole file, or, with true, over the faces of one object and material.
+        /// a mesh that form one surface (they share edges whose ends have equal positions, as neighboring triangles
+        /// do). If the other primitive has normals, these are kept, and computed ones adopt them at the border within
+        /// 30 degrees and the crease angle. Tangents are computed for each primitive separately, as bakers do. true:
+        /// normals are also computed for each primitive separately, and the border is a seam. OBJ: normals are smooth
+        /// over the whole file, or, with true, over the faces of one object and material.
         bool per_primitive = false;
         /// Recompute existing normals with `compute` in every primitive with triangles whose material is not unlit,
         /// and add missing ones, whether or not tangents are needed. Vertices that differ only in computed data
@@ -236,8 +236,9 @@ struct PrimitiveReport {
     /// Corners whose new normal points to the back of their triangle (beyond 90 degrees), on the base mesh.
     std::uint64_t normals_behind_count = 0;
     bool normals_replaced = false;  ///< existing normals were recomputed (Normals::overwrite)
-    /// Triangles wound against most of their connected neighbors, over edges of two triangles. Counted if normals are
-    /// computed or vertices were split; otherwise 0.
+    /// Number of triangles wound opposite to the majority of their connected component (connected over edges that
+    /// belong to exactly two triangles). 0 unless normals were computed, or splitting added more than 5 % to the
+    /// vertices.
     std::uint64_t turned_triangle_count = 0;
     /// Triangles of two-sided sheets: another triangle with the same positions has the opposite winding. Counted under
     /// the same conditions as turned_triangle_count.

@@ -76,17 +76,17 @@ struct FlipGreenOptions {
     ImageFileFormat format = ImageFileFormat::sameAsInput;
     /// JPEG quality, 1 to 100. The default adds a smaller error than rounding to 8 bits.
     int jpeg_quality = 98;
-    /// Like FileOptions::memory_limit_bytes.
+    /// Approximate memory limit; same meaning as FileOptions::memory_limit_bytes.
     std::uint64_t memory_limit_bytes = 0;
 
     // Options of flipGreenFile only:
 
     /// The image, instead of the file `input`; must stay valid during the call.
     std::span<const std::uint8_t> content = {};
-    /// Like GenerateOptions::sink: receives the bytes instead of the file `output`.
+    /// Receives the bytes instead of the file `output`; same rules as GenerateOptions::sink.
     Sink sink = {};
     bool dry_run = false;  ///< true: nothing is written
-    bool sync = true;      ///< as FileOptions::sync
+    bool sync = true;      ///< same meaning as FileOptions::sync
 };
 
 struct FlipGreenReport {
@@ -120,9 +120,10 @@ struct FlippedImage {
 /// to unpack to more than 16 times the memory limit, 1 GB and more by default.
 Result<FlippedImage> flipGreen(std::span<const std::uint8_t> image, const FlipGreenOptions& options = {});
 
-/// Like flipGreen, from file to file; `output` may be `input`. If no format is requested, the extension of the output
-/// decides: .png, .jpg, .jpeg, .webp, .ktx2 or .dds. The output is written atomically. Further errors: cannotRead,
-/// cannotWrite; invalidOption for an extension that is neither .png nor one of the format of the input.
+/// Reads an image, inverts its green channel like flipGreen, and writes it; `output` may be `input`. If no format is
+/// requested, the extension of the output decides: .png, .jpg, .jpeg, .webp, .ktx2 or .dds. The output is written
+/// atomically. Further errors: cannotRead, cannotWrite; invalidOption for an extension that is neither .png nor one of
+/// the format of the input.
 Result<FlipGreenReport> flipGreenFile(const std::string& input, const std::string& output,
                                       const FlipGreenOptions& options = {});
 
@@ -151,7 +152,7 @@ enum class DdsHeader : std::uint32_t {
 
 struct ConvertMapFileOptions {
     std::string mesh = {};     ///< model that the map was made for; empty: no mesh is needed
-    std::string to_mesh = {};  ///< model that will show the map, with the same surface and UVs; empty: `mesh`
+    std::string to_mesh = {};  ///< model that will use the map, with the same surface and UVs; empty: `mesh`
     /// Uses the primitives of the material with this name. Empty: primitives whose material refers to an image with the
     /// map's name, otherwise all that have UVs.
     std::string material = {};
@@ -166,8 +167,8 @@ struct ConvertMapFileOptions {
     MapLayout layout = {};
     /// Bits per channel: 8 or 16 in a PNG; 16 (half) or 32 (float) in an EXR. 0: the maximum of the format.
     unsigned bits = 0;
-    TexelLengths lengths = TexelLengths::even;  ///< as ConvertMapOptions::lengths
-    std::uint32_t padding = 0;                  ///< as ConvertMapOptions::padding
+    TexelLengths lengths = TexelLengths::even;  ///< same meaning as ConvertMapOptions::lengths
+    std::uint32_t padding = 0;                  ///< same meaning as ConvertMapOptions::padding
     /// Options for tangents of meshes without tangents, which are computed as by generateFile.
     TangentOptions tangents{.convention = conventions::gltf};
     /// Options for reading models and the image. A memory limit also applies to the image; without one, images of up to
@@ -224,14 +225,14 @@ struct HeightToNormalFileOptions {
     /// Factor of the heights. For gray images: height of white above black, in model units with `mesh`, otherwise in
     /// the unit of texel_size. For heights in meters: 1 keeps them, 2 doubles the slopes.
     double strength = 1;
-    std::string mesh = {};      ///< model that shows the map; empty: none
-    std::string material = {};  ///< as ConvertMapFileOptions::material
+    std::string mesh = {};      ///< model that uses the map; empty: none
+    std::string material = {};  ///< same meaning as ConvertMapFileOptions::material
     Green green = Green::up;    ///< direction of green in the output
     /// true: the image ends at its borders; false: it repeats, or is wrapped like the mesh's texture
     bool clamp = false;
     unsigned bits = 16;                                        ///< bits per channel of the output: 8 or 16
-    TangentOptions tangents{.convention = conventions::gltf};  ///< as ConvertMapFileOptions::tangents
-    FileOptions file = {};                                     ///< as ConvertMapFileOptions::file
+    TangentOptions tangents{.convention = conventions::gltf};  ///< same meaning as ConvertMapFileOptions::tangents
+    FileOptions file = {};                                     ///< same meaning as ConvertMapFileOptions::file
     std::span<const std::uint8_t> content = {};                ///< the image, instead of the file `input`
     Sink sink = {};                                            ///< receives the output instead of a file
     bool dry_run = false;                                      ///< true: nothing is written
@@ -284,7 +285,7 @@ struct CompressMapFileOptions {
     double roughness_factor = 1;  ///< multiplied into green first; the material's factor must then be set to 1
     unsigned zstd_level = 0;      ///< Zstandard level for the levels of a KTX2, 1 to 22; 0: no supercompression
     unsigned bits = 16;           ///< bits per channel of normal map PNGs: 8 or 16
-    /// Limits for the image, as ConvertMapFileOptions::file.
+    /// Limits for the image; same meaning as ConvertMapFileOptions::file.
     FileOptions file = {};
     /// The image, instead of the file `input`; must stay valid during the call.
     std::span<const std::uint8_t> content = {};
@@ -322,7 +323,7 @@ Result<CompressMapFileReport> compressMapFile(const std::string& input, const st
                                               const CompressMapFileOptions& options = {});
 
 struct TextureErrorOptions {
-    FileOptions file = {};  ///< limits for the images, as ConvertMapFileOptions::file
+    FileOptions file = {};  ///< limits for the images; same meaning as ConvertMapFileOptions::file
     /// True: z is computed from red and green of the texture, whatever its format; blue is ignored.
     bool two_channels = false;
     Execution execution = {};
@@ -333,7 +334,7 @@ struct TextureErrorReport {
     std::string format = {};  ///< "BC5 in a DDS"; empty for other images
     /// true: the texture has two channels, and z is computed after filtering, as in renderers
     bool makes_z = false;
-    double mean_error_deg = 0, p99_error_deg = 0, max_error_deg = 0;  ///< as in CompressMapFileReport
+    double mean_error_deg = 0, p99_error_deg = 0, max_error_deg = 0;  ///< same meaning as in CompressMapFileReport
     double max_error_x = 0, max_error_y = 0;
     std::vector<std::string> warnings = {};  ///< one sentence per warning
 };

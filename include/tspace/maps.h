@@ -103,7 +103,7 @@ struct RayOptions {
     /// Overrides `directions`: the first channel, sampled by the low poly's UVs, is 0 for averaged rays and 1 for rays
     /// perpendicular to the triangle. Without texels: unused.
     MapImage skew = {};
-    /// Weld distance for ray directions and curvature, as NormalOptions::weld_distance.
+    /// Weld distance for ray directions and curvature. Same meaning as NormalOptions::weld_distance.
     float weld_distance = NormalOptions::weld_auto;
 };
 
@@ -391,7 +391,7 @@ struct BakeOptions {
     MapOverlap overlap = MapOverlap::mean;
     TexelLengths lengths = TexelLengths::even;  ///< range of vector lengths, with 8 bits and three channels
     std::uint32_t padding = 16;                 ///< padding around the triangles, in texels; 0 to 256
-    double reach = 0;                           ///< as MapErrorOptions::reach
+    double reach = 0;  ///< search distance that was used (MapErrorOptions::reach, or its default)
     RayOptions rays = {};
     bool heat = false;  ///< also compute MapError::heat
     /// Memory limit of the call: compared with bakeBytes before any work (tooLarge). 0: no limit.
@@ -441,7 +441,7 @@ Result<BakedMap> bakeMap(const LowPoly& low, const HighPoly& high, const BakeOpt
 // Further layers of a bake, from the same rays: ambient occlusion, bent normals, curvature, heights, positions,
 // thickness, IDs, and the materials of the high poly.
 //
-// A texel of a layer shows the point of the high poly that the ray of its center hits, which is also the point whose
+// A texel of a layer shows the point of the high poly that the ray of its center hits. This is also the point whose
 // normal the normal map shows there; colors are means over the rays of a texel. If several triangles of the low poly
 // share a texel, colors are the mean over all of them, and other layers use the first.
 
@@ -494,7 +494,7 @@ struct BakedLayer {
     MapLayer layer = MapLayer::ao;
     std::uint32_t channel_count = 1;  ///< 1 or 3
     std::vector<float> values = {};   ///< from 0 to 1, channel_count per texel; row 0 is v = 0
-    /// Values of 0 and 1 for each channel, in mesh units.
+    /// Quantities that the stored values 0 and 1 represent, per channel, in mesh units.
     std::array<double, 3> least = {0, 0, 0}, most = {1, 1, 1};
 };
 

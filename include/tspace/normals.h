@@ -52,12 +52,12 @@ struct NormalOptions {
     bool smoothing_groups_are_masks = false;
     /// true: weld vertices with equal positions (so UV seams stay smooth); false: weld by index only.
     bool weld_positions = true;
-    /// With `weld_positions`: weld distance, in the unit of positions. Vertices whose positions differ by at most this
-    /// in each coordinate are welded to the one with the lowest index. Useful for meshes that are closed only up to
-    /// rounding, such as a torus whose last ring has sin(2 pi) = -2.4e-16 instead of 0. 0, the default: only equal
-    /// positions. `weld_auto`: twice the spacing of floats at the largest coordinate, and only at positions with an
-    /// edge of at least 32 times that length. Vertices are processed in order: each is welded to the first earlier
-    /// vertex within the distance that was not welded itself, so chains of close positions are not all welded together.
+    /// With `weld_positions`: weld distance, in mesh units. Vertices whose positions differ by at most this in each
+    /// coordinate are welded to the one with the lowest index. Useful for meshes that are closed only up to rounding,
+    /// such as a torus whose last ring has sin(2 pi) = -2.4e-16 instead of 0. 0, the default: only equal positions.
+    /// `weld_auto`: twice the spacing of floats at the largest coordinate, and only at positions with an edge of at
+    /// least 32 times that length. Vertices are processed in order: each is welded to the first earlier vertex within
+    /// the distance that was not welded itself, so chains of close positions are not all welded together.
     float weld_distance = 0;
 
     // For `best` only:
@@ -114,13 +114,14 @@ struct PositionNoise {
     /// Standard deviation of positions from a smooth surface through their neighbors, along the normal. Includes detail
     /// of the size of a triangle. 0: fewer than 200 vertices have enough neighbors for a measurement.
     float sigma = 0;
-    /// Median share, 0..1, of the change of normals along an edge that no smooth surface can have. Noise: 0.3 to 0.8;
-    /// CAD, bevels and decimated meshes: less, for the same sigma.
+    /// How abruptly normals change along edges, from 0 to 1: the median over the sampled edges of x^2 / (x^2 + y^2),
+    /// where x is the part of the change that uniform bending cannot explain (0 on a circle), and y the part that it
+    /// explains. Noise: 0.3 to 0.8. CAD models, bevels and decimated meshes: less, for the same sigma.
     float kink_share = 0;
     /// Part of `sigma` that is noise, which NormalOptions::denoise removes automatically. 0: positions are not noisy,
     /// or most edges are flatter than noise would leave them.
     float noise = 0;
-    /// mean edge length of a sample, in the unit of positions, minus the share that noise of sigma adds
+    /// Mean length of the sampled edges, in mesh units, without the length that noise of `sigma` adds to them.
     double mean_edge = 0;
 };
 

@@ -16,10 +16,11 @@ namespace tspace {
 
 /// Optional additions to the plan that planBuffers writes.
 struct PlanBufferOptions {
-    /// Vertex of each corner in the arrays of a pose, as IndexedFrames::indices. Empty: the indices of the plan's mesh.
+    /// For each corner, the index of its vertex in the arrays of a pose; IndexedFrames::indices can be passed here.
+    /// Empty: the indices of the plan's mesh are used.
     std::span<const std::uint32_t> indices = {};
-    /// Corner that each result belongs to, as IndexedFrames::source_corners; kNoCorner: none. Empty: one result per
-    /// output of evaluateTangents.
+    /// For each result, the corner that it belongs to; IndexedFrames::source_corners can be passed here. kNoCorner:
+    /// none. Empty: one result per output of evaluateTangents.
     std::span<const std::uint32_t> source_corners = {};
     /// Mesh of the plan, for computing normals from positions in the shader. Corners with equal positions share
     /// normals. Without vertices, the default, a pose provides its normals.

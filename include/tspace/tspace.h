@@ -771,12 +771,12 @@ typedef struct tspace_NormalOptions {
      * to vertex, which cannot be distinguished from detail. Hard edges are preserved: no surface is fitted across
      * them. */
     float denoise;
-    /* With `weld_positions`: weld distance, in the unit of positions. Vertices whose positions differ by at most
-     * this in each coordinate are welded to the one with the lowest index. Useful for meshes that are closed only up
-     * to rounding, such as a torus whose last ring has sin(2 pi) = -2.4e-16 instead of 0. 0, the default: only equal
-     * positions. -1: twice the spacing of floats at the largest coordinate, and only at positions with an edge of at
-     * least 32 times that length. Vertices are processed in order: each is welded to the first earlier vertex within
-     * the distance that was not welded itself, so chains of close positions are not all welded together. */
+    /* With `weld_positions`: weld distance, in mesh units. Vertices whose positions differ by at most this in each
+     * coordinate are welded to the one with the lowest index. Useful for meshes that are closed only up to rounding,
+     * such as a torus whose last ring has sin(2 pi) = -2.4e-16 instead of 0. 0, the default: only equal positions.
+     * -1: twice the spacing of floats at the largest coordinate, and only at positions with an edge of at least 32
+     * times that length. Vertices are processed in order: each is welded to the first earlier vertex within the
+     * distance that was not welded itself, so chains of close positions are not all welded together. */
     float weld_distance;
 } tspace_NormalOptions;
 
@@ -831,13 +831,14 @@ typedef struct tspace_PositionNoise {
     /* Standard deviation of positions from a smooth surface through their neighbors, along the normal. Includes
      * detail of the size of a triangle. 0: fewer than 200 vertices have enough neighbors for a measurement. */
     float sigma;
-    /* Median share, 0..1, of the change of normals along an edge that no smooth surface can have. Noise: 0.3 to 0.8;
-     * CAD, bevels and decimated meshes: less, for the same sigma. */
+    /* How abruptly normals change along edges, from 0 to 1: the median over the sampled edges of x^2 / (x^2 + y^2),
+     * where x is the part of the change that uniform bending cannot explain (0 on a circle), and y the part that it
+     * explains. Noise: 0.3 to 0.8. CAD models, bevels and decimated meshes: less, for the same sigma. */
     float kink_share;
     /* Part of `sigma` that is noise, which tspace_NormalOptions.denoise removes automatically. 0: positions are not
      * noisy, or most edges are flatter than noise would leave them. */
     float noise;
-    /* mean edge length of a sample, in the unit of positions, minus the share that noise of sigma adds */
+    /* Mean length of the sampled edges, in mesh units, without the length that noise of `sigma` adds to them. */
     double mean_edge;
 } tspace_PositionNoise;
 
@@ -1045,12 +1046,12 @@ void tspace_destroyIndexedFrames(tspace_IndexedFrames* frames) TSPACE_NOEXCEPT;
 typedef struct tspace_PlanBufferOptions {
     uint32_t struct_size;
     uint32_t reserved;
-    /* Vertex of each corner in the arrays of a pose, as tspace_IndexedFrames.indices. Empty: the indices of the
-     * plan's mesh. */
+    /* For each corner, the index of its vertex in the arrays of a pose; tspace_IndexedFrames.indices can be passed
+     * here. Empty: the indices of the plan's mesh are used. */
     const uint32_t* indices;
     size_t index_count;
-    /* Corner that each result belongs to, as tspace_IndexedFrames.source_corners; TSPACE_NO_CORNER: none. Empty: one
-     * result per output of tspace_evaluateTangents. */
+    /* For each result, the corner that it belongs to; tspace_IndexedFrames.source_corners can be passed here.
+     * TSPACE_NO_CORNER: none. Empty: one result per output of tspace_evaluateTangents. */
     const uint32_t* source_corners;
     size_t source_corner_count;
     /* Mesh of the plan, for computing normals from positions in the shader. Corners with equal positions share

@@ -135,10 +135,10 @@ tspace_ErrorCode tspace_diffBytes(const tspace_Model* a, const tspace_Model* b, 
  * empty after an error, and with the option "dry-run". Free it with tspace_destroyBytes. */
 tspace_ErrorCode tspace_flipGreenBytes(const uint8_t* data, size_t size, const char* options, tspace_Bytes* output,
                                        tspace_Bytes* report, tspace_Error* error) TSPACE_NOEXCEPT;
-/* Like tspace_flipGreenBytes, from file to file; `output` may be `input`. If no format is requested, the extension
- * of the output decides: .png, .jpg, .jpeg, .webp, .ktx2 or .dds. The output is written atomically. Further errors:
- * CANNOT_READ, CANNOT_WRITE; INVALID_OPTION for an extension that is neither .png nor one of the format of the
- * input.
+/* Reads an image, inverts its green channel like tspace_flipGreenBytes, and writes it; `output` may be `input`. If
+ * no format is requested, the extension of the output decides: .png, .jpg, .jpeg, .webp, .ktx2 or .dds. The output
+ * is written atomically. Further errors: CANNOT_READ, CANNOT_WRITE; INVALID_OPTION for an extension that is neither
+ * .png nor one of the format of the input.
  * In C: options and report as tspace_flipGreenBytes. */
 tspace_ErrorCode tspace_flipGreenFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
                                       tspace_Error* error) TSPACE_NOEXCEPT;

@@ -117,7 +117,7 @@ TEST(JsonText, ReportsErrors) {
     EXPECT_EQ(message("{\"a\":1e400}"), "the JSON contains a number that is too large");
     EXPECT_EQ(message("{\"a\":NaN}"), "the JSON has a syntax error");
     EXPECT_EQ(message("{\"a\":1,\"a\":2}"), "the JSON contains the member 'a' twice in one object");
-    EXPECT_EQ(message("[1]"), "the JSON is not an object");
+    EXPECT_EQ(message("[1]"), "the top level of the JSON is not an object");
     EXPECT_EQ(message(""), "the JSON has a syntax error");
     EXPECT_EQ(message("{\"a\":\"\xff\"}"), "the JSON has a syntax error");
 }

@@ -171,7 +171,7 @@ void addReporting(Command& command, bool& json, bool& quiet) {
     command.add(
         group,
         flag("-q, --quiet", quiet,
-             "Do not print the report; the JSON is printed if requested. Failures are still reported on stderr."));
+             "Do not print the text report. --json still prints the JSON, and failures are still reported on stderr."));
     command.add(group, helpOption());
 }
 

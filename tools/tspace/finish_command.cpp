@@ -87,7 +87,7 @@ Command finishCommand() {
     FinishArguments& arguments = *owned;
     arguments.options.execution.thread_count = kAllThreads;
     Command command{
-        .summary = "prepare a generated or scanned mesh: winding, normals, tangents, all maps",
+        .summary = "repair a generated or scanned mesh (winding, normals, tangents), and bake maps onto a low poly",
         .operands = "IN -o OUT.glb",
         .description =
             "Fixes the winding, adds missing normals and recomputes wrong ones (the crease angle and the noise level "

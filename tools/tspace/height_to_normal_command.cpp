@@ -47,8 +47,8 @@ Command heightToNormalCommand() {
         .operands = "IN -o OUT",
         .description =
             "Computes a normal map from a gray image in which white is high and black is low (a bump map): the slopes "
-            "of the heights, times a strength that you provide. With --mesh, the strength is in model units, and "
-            "slopes are measured on the surface of the model.",
+            "of the heights, multiplied by --strength. With --mesh, the strength is in model units, and slopes are "
+            "measured on the surface of the model.",
         .examples = {"tspace height-to-normal height.png -o normal.png --strength 4",
                      "tspace height-to-normal height.png -o normal.png --mesh wall.glb --strength 0.02",
                      "tspace height-to-normal height.png -o normal-dx.png --convention directx --bits 8"},

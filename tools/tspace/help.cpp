@@ -29,11 +29,11 @@ std::string missingFeatures() {
 }
 
 const char* const kExitCodes =
-    "Exit codes:\n  0  success\n  1  check: findings (see --fail-on); bake: findings, such as many rays without a hit; "
-    "finish: remaining errors, or findings of bake; diff: the models differ\n  2  wrong usage: an option or argument "
-    "is missing or invalid\n  3  invalid input: a file is damaged, not supported, or references a path outside its "
-    "folder\n  4  a file cannot be read or written\n  5  out of memory, or an internal error\nWith several files, the "
-    "exit code is the highest of all files. Every error is one line on stderr.\n";
+    "Exit codes:\n  0  success\n  1  findings or differences, for these commands: check (see --fail-on), bake (such as "
+    "many rays without a hit), finish (remaining errors, or findings of bake) and diff\n  2  wrong usage: an option or "
+    "argument is missing or invalid\n  3  invalid input: a file is damaged, not supported, or references a path "
+    "outside its folder\n  4  a file cannot be read or written\n  5  out of memory, or an internal error\nWith several "
+    "files, the exit code is the highest of all files. Every error is one line on stderr.\n";
 
 std::string usageLine(const Command& command) {
     return "tspace " + command.name + " " + command.operands + " [OPTION...]";

@@ -85,11 +85,11 @@ Command mapErrorCommand() {
         .summary = "measure the error of a normal map against its high poly, and find its cause",
         .operands = "{MAP LOW --high HIGH | MAP --source IMAGE}",
         .description =
-            "Measures a normal map from any source: the angle, in degrees, between the normals that a renderer "
+            "Measures a normal map made by any program: the angle, in degrees, between the normals that a renderer "
             "computes from the map and those of the high poly. Then tries other interpretations of the map (green "
             "down, tangents of other methods, quads, a bitangent per vertex, object space) and reports which fits "
-            "best. With --source it compares a compressed texture with its original, both filtered. No input is "
-            "changed.",
+            "best. With --source it compares a compressed texture with its original, both sampled with bilinear "
+            "filtering. No input is changed.",
         .examples = {"tspace map-error normal.png low.glb --high high.glb",
                      "tspace map-error normal.png low.fbx --high scan.ply --convention unreal --heat heat.png --json",
                      "tspace map-error normal.ktx2 --source normal.png"},

@@ -19,7 +19,7 @@ Result<Done> prepareOutputs(const std::vector<std::string>& outputs, const std::
     const auto isFile = [](const std::string& path) {
         return !path.empty() && path != "-" && kindOf(path) != PathKind::stream;
     };
-    std::map<std::string, std::string> names;  // description of each file for messages, by its identity
+    std::map<std::string, std::string> names;  // description of each file for messages; key: identity of the file
     for (const std::string& input : inputs) {
         if (isFile(input)) names.emplace(identityOf(input), "an input");
     }

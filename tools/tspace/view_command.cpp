@@ -84,9 +84,8 @@ Command viewCommand() {
         .operands = "IN -o OUT.html",
         .description =
             "Writes one self-contained HTML file of the model. It opens from disk in any browser and needs no network. "
-            "The page shows the findings of tspace check and the model lit with its own frames and with correct ones. "
-            "It can "
-            "also repair the model. The template of the page is installed with tspace.",
+            "The page shows the findings of tspace check and the model lit with its own frames and with recomputed "
+            "ones. It can also repair the model. The template of the page is installed with tspace.",
         .examples = {"tspace view helmet.glb -o helmet.html"},
     };
     const char* group = kInputAndOutput;

@@ -301,7 +301,7 @@ class SceneWriter {
     std::vector<std::size_t> first_child_ = {};
     std::map<std::string, std::size_t> index_of_ = {};
     std::map<std::vector<unsigned>, MeshNumbers> mesh_of_ = {};
-    std::map<std::string, std::size_t> reduced_materials_ = {};  ///< index of each reduced material, by its JSON
+    std::map<std::string, std::size_t> reduced_materials_ = {};  ///< index of each reduced material; key: its JSON
 };
 
 /// Parameters for reading a file once more.

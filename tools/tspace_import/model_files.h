@@ -10,8 +10,8 @@
 
 namespace tspace::import {
 
-/// Opens the model and files in its folder or below, by the rule for glTF URIs (src/model/io/folder_rule.h): no ".." in
-/// a name, and no link that leaves the folder. Other files appear not to exist.
+/// Opens the model and files in its folder or below, according to the rule for glTF URIs (src/model/io/folder_rule.h):
+/// no ".." in a name, and no link that leaves the folder. Other files appear not to exist.
 class ModelFiles : public Assimp::DefaultIOSystem {
   public:
     /// Parameters: `anywhere` disables the rule. `refused` receives existing files that were not read, formatted for

@@ -7,7 +7,7 @@
 namespace tspace::import {
 
 enum class StoredTangents {
-    none,            ///< the format names its tangents, and the name does not occur in the file
+    none,            ///< the file has no tangents: the name that its format uses for them does not occur in it
     withBitangents,  ///< Assimp's tangents are those of the file
     /// Assimp does not read tangents from this format, or the file lacks bitangents. In the second case the sign of the
     /// tangents is unknown, and Assimp chooses an arbitrary one.

@@ -67,8 +67,8 @@ export interface GenerateFileOptions {
   frame?: "gram-schmidt" | "symmetric";
   /**
    * Number of refinement steps of `method` best and `normals` best: 0, 1 or 2. Each step reduces the shading error
-   * between vertices: interpolated tangents follow the edges more closely, and interpolated normals are closer to
-   * perpendicular to them. Default: 1 for tangents, 2 for normals.
+   * between vertices: it adjusts the frames so that, interpolated along an edge, tangents reproduce the direction of the
+   * edge more closely, and normals are closer to perpendicular to it. Default: 1 for tangents, 2 for normals.
    */
   refine?: number | string;
   /**
@@ -145,7 +145,7 @@ export interface GenerateFileOptions {
    */
   denoise?: number | string;
   /**
-   * Weld distance, in the unit of positions before node transforms: positions that differ by at most this in each
+   * Weld distance, in mesh units (before node transforms): positions that differ by at most this distance in each
    * coordinate are welded when normals are computed and winding is fixed. 0: only equal positions; auto: twice the float
    * spacing at the largest coordinate of the mesh. Tangents are always computed on the unwelded positions. Default:
    * auto.
@@ -169,21 +169,21 @@ export interface GenerateFileOptions {
   morphNormals?: "keep" | "missing" | "all";
   /**
    * Flip triangles whose winding disagrees with their neighbors, and connected components that are inside out, before
-   * any other step. The outside of a component is determined by the first of these rules that applies: its existing
-   * normals, if they agree; its signed volume, or its nesting in other components, if it is closed; its winding number,
-   * if it is open and has an inside; the winding of most of its area. See docs/concepts/winding.md.
+   * any other step. The outside of a component is determined by the first of these rules that applies: (1) its existing
+   * normals, if they agree; (2) if it is closed, its signed volume or its nesting in other components; (3) if it is open
+   * but has an inside, its winding number; (4) the winding of most of its area. See docs/concepts/winding.md.
    */
   fixWinding?: boolean;
   /** The name of fix-winding before 0.1. */
   mendWinding?: boolean;
   /**
-   * Write the raw tangents of the method, even if they are not finite, zero, not of unit length, parallel to the normal,
-   * or of different signs within a face. By default such tangents are repaired and counted.
+   * Write the raw tangents of the method, even if they contain NaN or infinity, are zero, do not have unit length, are
+   * parallel to the normal, or have different signs within a face. By default such tangents are repaired and counted.
    */
   noSanitize?: boolean;
   /**
-   * Also give every valid tangent unit length and make it orthogonal to its normal. Where normals are not of unit
-   * length, the result then no longer matches bakes exactly.
+   * Normalize every tangent and make it orthogonal to its normal, including tangents that need no repair. Where normals
+   * do not have unit length, the result then no longer matches bakes exactly.
    */
   orthogonalize?: boolean;
 }
@@ -214,7 +214,7 @@ export interface CheckFileOptions {
    */
   faces?: "triangles" | "quads" | "auto";
   /**
-   * Weld distance, in the unit of positions before node transforms: positions that differ by at most this in each
+   * Weld distance, in mesh units (before node transforms): positions that differ by at most this distance in each
    * coordinate are welded for the checks of winding, primitive borders and noise. 0: only equal positions; auto: twice
    * the float spacing at the largest coordinate of the mesh. Tangents are always computed on the unwelded positions.
    * Default: auto.
@@ -249,6 +249,6 @@ export interface DiffFileOptions {
    * 180. Default: 1.
    */
   tolerance?: number | string;
-  /** Number of vertices to list, those with the largest differences. Default: 8. */
+  /** Number of vertices to list, in order of decreasing difference. Default: 8. */
   worst?: number | string;
 }

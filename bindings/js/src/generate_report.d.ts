@@ -171,8 +171,8 @@ export interface GeneratedPrimitive {
   normalsJoined: number;
   /** Corners whose new normal points to the back of their triangle. */
   normalsBehind: number;
-  /** Triangles whose winding is opposite to most of the connected triangles. Counted if normals were computed, or if vertices
-   * were split for at least one triangle in twenty; else 0, like "twoSidedTriangles". */
+  /** Triangles wound opposite to the majority of their connected component. 0 unless normals were computed, or splitting added
+   * more than 5 % to the vertices; "twoSidedTriangles" has the same condition. */
   turnedTriangles: number;
   /** Triangles of two-sided sheets: other triangles have the same positions and the opposite winding. */
   twoSidedTriangles: number;

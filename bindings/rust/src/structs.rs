@@ -105,13 +105,12 @@ pub struct NormalOptions<'a> {
     /// of the measured noise, without that check; 3 suits noise that is smooth from vertex to vertex, which cannot
     /// be distinguished from detail. Hard edges are preserved: no surface is fitted across them.
     pub denoise: f32,
-    /// With `weld_positions`: weld distance, in the unit of positions. Vertices whose positions differ by at most
-    /// this in each coordinate are welded to the one with the lowest index. Useful for meshes that are closed only
-    /// up to rounding, such as a torus whose last ring has sin(2 pi) = -2.4e-16 instead of 0. 0, the default: only
-    /// equal positions. -1: twice the spacing of floats at the largest coordinate, and only at positions with an
-    /// edge of at least 32 times that length. Vertices are processed in order: each is welded to the first earlier
-    /// vertex within the distance that was not welded itself, so chains of close positions are not all welded
-    /// together.
+    /// With `weld_positions`: weld distance, in mesh units. Vertices whose positions differ by at most this in each
+    /// coordinate are welded to the one with the lowest index. Useful for meshes that are closed only up to
+    /// rounding, such as a torus whose last ring has sin(2 pi) = -2.4e-16 instead of 0. 0, the default: only equal
+    /// positions. -1: twice the spacing of floats at the largest coordinate, and only at positions with an edge of
+    /// at least 32 times that length. Vertices are processed in order: each is welded to the first earlier vertex
+    /// within the distance that was not welded itself, so chains of close positions are not all welded together.
     pub weld_distance: f32,
     /// Default: the calling thread.
     pub execution: Execution,

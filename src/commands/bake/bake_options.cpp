@@ -27,7 +27,7 @@ constexpr unsigned kMaxPadding = 256, kMaxSide = 16384;
 Option lengthOption(const char* name, double& target, const char* help) {
     const auto take = [&target](const std::string& text) -> std::string {
         double given = 0;
-        if (!parseReal(text, given) || !(given > 0) || !std::isfinite(given)) return "must be a length greater than 0";
+        if (!parseReal(text, given) || !(given > 0) || !std::isfinite(given)) return "must be a number greater than 0";
         target = given;
         return {};
     };
@@ -105,8 +105,9 @@ void addLayerOptions(OptionList& list, LayerOptions& layers, BakeIds& ids) {
                      "absolute height found, which the report states."));
     add(list, group,
         lengthOption("--curvature-range", layers.curvature_range,
-                     "Mean curvature (1/radius, in model units) mapped to white; its negative maps to black. Default: "
-                     "the 99th percentile of the texels, which the report states."));
+                     "Mean curvature (1/radius, with the radius in model units) mapped to white; its negative maps to "
+                     "black. Default: the 99th percentile of the texels, which the report states."))
+        .value = "CURVATURE";
     add(list, group,
         lengthOption("--thickness-range", layers.thickness_range,
                      "Thickness mapped to white, in model units. Default: the largest thickness found, which the "
@@ -136,15 +137,15 @@ void addRayOptions(OptionList& list, double& reach, RayOptions& rays, std::strin
     add(list, group,
         lengthOption(
             "--reach", reach,
-            "Maximum search distance from the low poly, outward and inward, in model units. Default: the "
-            "larger of 5% of the diagonal of the larger bounding box and 1.5 times the largest distance between "
-            "corresponding sides of the two boxes, but at most 25% of the diagonal; the report states the value."));
+            "Maximum search distance from the low poly, outward and inward, in model units. Default: the larger of 5% "
+            "of D and 1.5 times the largest distance between corresponding sides of the two bounding boxes, but at "
+            "most 25% of D, where D is the diagonal of the larger box. The report states the value."));
     add(list, group,
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", rays.weld_distance, NormalOptions::weld_auto,
                      1000000000,
-                     "Weld distance, in model units: positions that differ by at most this in each coordinate are "
-                     "welded for ray directions, generated normals, curvature and ID maps. 0: only equal positions; "
-                     "auto: twice the float spacing at the largest coordinate of the mesh."));
+                     "Weld distance, in model units: positions that differ by at most this distance in each coordinate "
+                     "are welded for ray directions, generated normals, curvature and ID maps. 0: only equal "
+                     "positions; auto: twice the float spacing at the largest coordinate of the mesh."));
     Option painted = fileOption("--skew", "IMAGE", skew,
                                 "Skew map, used instead of --directions: an image in the UVs of the low poly. Ray "
                                 "directions are averaged where it is black, and follow the face normals where it is "

@@ -13,8 +13,8 @@ namespace tspace {
 /// Inputs of a bake, and the objects that receive its results.
 struct BakeStep {
     BakeSources sources = {};
-    /// Path from which the names of the other maps are derived: NAME_ao.png for NAME.png. Empty: the output, as for the
-    /// normal map.
+    /// Path from which the names of the other maps are derived (NAME_ao.png from NAME.png). Empty: they are derived
+    /// from the output path.
     std::string layers_output = {};
     bool notes_noise = true;  ///< warns of noisy positions of the high poly
     InputFiles& inputs;       ///< receives the names of the files that are read

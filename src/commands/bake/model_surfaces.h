@@ -197,12 +197,12 @@ bool showsMaterials(const LayerOptions& layers);
 
 // Pictures of a bake: the kind of each texel, and the error.
 
-/// Colors of the origin of each texel. Red: no hit; yellow: several triangles; green: baked; dark green: padding;
+/// Returns a picture of the texel states. Red: no hit; yellow: several triangles; green: baked; dark green: padding;
 /// black: background.
 std::vector<Vec3> pictureOfOrigins(const BakedMap& map);
 
-/// Colors of the error of each texel, from black (0) through blue, red and yellow to white (`top_deg` or more). Texels
-/// without triangles are dark gray.
+/// Returns a heat map of the error per texel: black (0), blue, red, yellow, white (`top_deg` or more). Texels without
+/// triangles are dark gray.
 std::vector<Vec3> pictureOfHeat(const std::vector<float>& heat, double top_deg);
 
 }  // namespace tspace

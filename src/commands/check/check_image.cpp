@@ -110,10 +110,10 @@ std::optional<Finding> lengthFinding(const std::string& name, const RgbImage& im
     }
     if (total == 0 || static_cast<double>(count) < kMinShare * static_cast<double>(total)) return {};
     return noteOn(FindingCode::normalMapLengths, count, total,
-                  "the relief may look too strong or too weak: vectors of " + name +
-                      " do not have unit length: " + std::to_string(count) + " of " + std::to_string(total) +
-                      " texels deviate by more than 0.1, and the mean length is " +
-                      shortNumber(sum / static_cast<double>(total)));
+                  "the relief may look too strong or too weak: the vectors of " + name + " do not have unit length (" +
+                      std::to_string(count) + " of " + std::to_string(total) +
+                      " texels deviate by more than 0.1; mean length " + shortNumber(sum / static_cast<double>(total)) +
+                      ")");
 }
 
 /// Reports flat areas of 8-bit maps whose x and y are 127, which is half a step below 0 (128 is half a step above).

@@ -25,7 +25,7 @@ namespace {
 inline constexpr double kOffShare = 0.25;
 
 struct MorphFault {
-    Tally targets = {};    ///< vertices of the first faulty target; `count` and `total` are numbers of targets
+    Tally targets = {};    ///< counts targets, not vertices; its `vertices` are those of the first faulty target
     double far_share = 0;  ///< largest share of the surface that is off by more than error_deg
     std::size_t first = 0;
 

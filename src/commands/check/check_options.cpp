@@ -56,9 +56,9 @@ void addChecking(OptionList& list, CheckRequest& request) {
     add(list, group,
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.weld_distance, NormalOptions::weld_auto,
                      1000000000,
-                     "Weld distance, in the unit of positions before node transforms: positions that differ by at most "
-                     "this in each coordinate are welded for the checks of winding, primitive borders and noise. 0: "
-                     "only equal positions; auto: twice the float spacing at the largest coordinate of the mesh. "
+                     "Weld distance, in mesh units (before node transforms): positions that differ by at most this "
+                     "distance in each coordinate are welded for the checks of winding, primitive borders and noise. "
+                     "0: only equal positions; auto: twice the float spacing at the largest coordinate of the mesh. "
                      "Tangents are always computed on the unwelded positions."));
     add(list, group, setting("--no-images", options.images, false, "Do not examine the pixels of normal maps."));
 }

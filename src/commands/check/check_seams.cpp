@@ -35,7 +35,8 @@ constexpr std::size_t kMinPlaces = 3;
 /// Approximate memory for comparing the primitives of a mesh; freed afterwards.
 constexpr std::uint64_t kBytesPerVertex = 200, kBytesPerCorner = 100;
 
-/// Normal of a triangle and its weights at its corners. Three weightings are used: equal, by area and by angle.
+/// Normal of a triangle and its weights at its corners. Three weightings are used: equal weights, area and corner
+/// angle.
 struct Face {
     DVec3 normal = {};
     double area = 0;

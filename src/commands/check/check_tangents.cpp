@@ -167,7 +167,8 @@ constexpr double kClearlyWrong = 0.2;
 /// Wrong signs without wrong directions are explained only by the primitive's own texture transform, which may mirror.
 constexpr double kSomeSigns = 0.1;
 constexpr double kExplained = 0.02;
-/// Minimum share of the surface with UV area on which the other UVs must have area too.
+/// Other UVs explain the tangents only if they have area on at least this share of the surface that has UV area in the
+/// expected UVs.
 constexpr double kCovered = 0.95;
 
 struct Faults {

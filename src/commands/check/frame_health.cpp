@@ -133,7 +133,7 @@ void examineValues(const TangentView& mesh, const Surface& surface, const CheckO
 /// If wrong signs cover a larger share of the surface, the convention is wrong rather than single signs.
 constexpr double kEverySign = 0.95;
 
-/// Area of the triangles around each vertex, by the sign that their UVs require.
+/// Area of the triangles around each vertex, summed separately for each sign that their UVs require.
 struct SignAreas {
     std::vector<float> plus, minus;
 };
@@ -358,7 +358,8 @@ bool isSame(const Vec4& stored, const Vec4& expected, float factor) {
     return angleBetween(toDouble(xyz(stored)), toDouble(xyz(expected))) * 180 / kPi <= kSettledDeg;
 }
 
-/// Marks vertices as settled if the method computes the stored tangent at all their corners with UV area.
+/// Sets FrameHealth::settled for vertices whose stored tangent the method computes at all corners in triangles with UV
+/// area.
 Result<Done> settleBy(const TangentOptions& how, const TangentView& mesh, const Surface& surface, FrameHealth& health) {
     const Result<std::vector<Vec4>> expected = expectedTangents(mesh, how);
     if (!expected) return expected.error();
@@ -375,7 +376,8 @@ Result<Done> settleBy(const TangentOptions& how, const TangentView& mesh, const 
     return Done{};
 }
 
-/// Fills FrameHealth::settled. Returns whether that changes any finding.
+/// Sets FrameHealth::settled for vertices whose tangents equal those that `generate` would compute. Returns whether any
+/// of them had a fault.
 Result<bool> settleVertices(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
                             FrameHealth& health) {
     const bool only_signs = health.all_signs_wrong && health.mirrored_seams.count == 0;

@@ -53,9 +53,9 @@ struct MapAnalysis {
 std::vector<TexelBytes> sampleTexels(const RgbImage& image, std::span<const std::uint8_t> alpha,
                                      const TexelMask& inside);
 
-/// Detects the content from the texels that triangles cover, by the lengths of the vectors, their mean direction, and
-/// whether a channel is constant or all are equal. `surface`: distinguishes object space from exchanged channels; may
-/// be empty. `in_world`: the same points with the normals in world space; empty if no node rotates them.
+/// Detects the content from the texels that triangles cover, using the lengths of the vectors, their mean direction,
+/// and whether a channel is constant or all are equal. `surface`: distinguishes object space from exchanged channels;
+/// may be empty. `in_world`: the same points with the normals in world space; empty if no node rotates them.
 MapAnalysis analyzeTexels(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
                           std::span<const TexelOnSurface> in_world = {});
 

@@ -257,9 +257,9 @@ Option factorOption(double& factor) {
 void addRoughness(OptionList& list, CompressMapFileOptions& options) {
     Option texture = fileOption(
         "--roughness", "IMAGE", options.roughness,
-        "A glTF texture of occlusion, roughness and metalness. Its mip levels are made rougher according to the "
-        "spread of the normals within each texel, so that distant surfaces do not sparkle. Its width and height "
-        "are those of the normal map, or larger or smaller by a power of two.",
+        "A glTF texture of occlusion, roughness and metalness. Its mip levels are made rougher according to the spread "
+        "of the normals within each texel, so that distant surfaces do not sparkle. Its width and height must equal "
+        "those of the normal map, or both must differ from them by the same power of two.",
         InputKind::image);
     texture.needs = "--roughness-output";
     add(list, "Roughness", texture);

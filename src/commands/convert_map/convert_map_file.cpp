@@ -370,8 +370,8 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
                    InputKind::model));
     add(list, kInputAndOutput,
         fileOption("--to-mesh", "FILE", options.to_mesh,
-                   "The model that will show the map: same surface and UVs, other tangents, normals, splits or "
-                   "triangulation. Default: the model of --mesh.",
+                   "Model that will use the map. It must have the same surface and UVs; tangents, normals, splits and "
+                   "triangulation may differ. Default: the model of --mesh.",
                    InputKind::model));
     addMaterialOfMap(list, options.material);
     add(list, kInputAndOutput,

@@ -277,7 +277,7 @@ OptionList diffOptions(DiffRequest& request) {
                 "degrees, 0 to 180."));
     add(list, group,
         number("--worst", request.options.worst_count, 10000,
-               "Number of vertices to list, those with the largest differences."));
+               "Number of vertices to list, in order of decreasing difference."));
     addLimits(list, request.options.file);
     return list;
 }

@@ -118,7 +118,7 @@ std::vector<DVec3> boxedPositions(const ScenePrimitive& primitive) {
     return boxed;
 }
 
-/// Triangles of one mesh in a grid, by their centers.
+/// Grid of the triangles of one mesh; each is in the cell that contains its center.
 class TriangleGrid {
   public:
     explicit TriangleGrid(const ScenePrimitive& primitive)

@@ -65,10 +65,10 @@ OptionList finishOptions(FinishOptions& options) {
     add(list, "Normals",
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.weld_distance, NormalOptions::weld_auto,
                      1000000000,
-                     "Weld distance, in the unit of positions before node transforms: positions that differ by at most "
-                     "this in each coordinate are welded when normals are computed, winding is fixed and borders are "
-                     "compared. 0: only equal positions; auto: twice the float spacing at the largest coordinate of "
-                     "the mesh. Tangents are always computed on the unwelded positions."));
+                     "Weld distance, in mesh units (before node transforms): positions that differ by at most this "
+                     "distance in each coordinate are welded when normals are computed, winding is fixed and borders "
+                     "are compared. 0: only equal positions; auto: twice the float spacing at the largest coordinate "
+                     "of the mesh. Tangents are always computed on the unwelded positions."));
     add(list, "Repair",
         setting("--keep-winding", options.mend_winding, false,
                 "Do not fix the winding: keep triangles that disagree with their neighbors, and components that are "

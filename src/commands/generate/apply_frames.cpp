@@ -177,7 +177,7 @@ std::string morphNormalsNote(const PoolPlan& pool, const PoolElements& elements,
     return note;
 }
 
-/// Updates vertex numbers in extensions after a split.
+/// Updates vertex indices in extensions after a split.
 void carryNumbers(std::span<const Primitive> primitives, const PoolPlan& pool, const PoolElements& elements,
                   VertexNumbers& numbers) {
     for (std::size_t i = 0; i < elements.corners.size(); ++i) {

@@ -26,7 +26,7 @@ void noteUnreadableTangents(std::span<const Primitive> primitives, std::span<Pri
 /// Changes the document so that the pool's primitives have the frames in `elements`; moves from their bytes. Without a
 /// split, changes only TANGENT (and NORMAL and _BITANGENT if they were computed) of the primitives, and of the morph
 /// targets that move positions or normals (with offsets as floats). Fills action and vertices_after in the reports of
-/// the pool's primitives. `numbers`: updates the vertex numbers in extensions after a split.
+/// the pool's primitives. `numbers`: updates the vertex indices in extensions after a split.
 void applyFrames(Editor& editor, const Document& document, std::span<const Primitive> primitives, const PoolPlan& pool,
                  PoolElements&& elements, VertexNumbers& numbers, std::span<PrimitiveReport> reports);
 

@@ -25,7 +25,7 @@ struct WeldedVertices {
 
 /// Finds classes of vertices that are equal in all attributes, including those of morph targets, except NORMAL,
 /// TANGENT, _BITANGENT and packed frames. Floats are compared by bits, with -0 equal to 0. Keeps all vertices of
-/// primitives with CESIUM_primitive_outline, because its lists contain vertex numbers. Linear time.
+/// primitives with CESIUM_primitive_outline, because its lists contain vertex indices. Linear time.
 WeldedVertices weldVertices(const Document& document, const Primitive& primitive);
 
 /// Number of corners whose frames are computed, and of all corners; reported to GenerateOptions::progress.

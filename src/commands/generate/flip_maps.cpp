@@ -209,7 +209,7 @@ class TextureUses {
     }
 
     Document& document_;
-    std::vector<Use> uses_ = {};  ///< uses of each texture, by index
+    std::vector<Use> uses_ = {};  ///< uses of each texture; indexed by texture
     /// Indices of the textures that use an image, by image.
     std::map<std::size_t, std::vector<std::size_t>> textures_of_ = {};
     std::map<std::size_t, std::size_t> own_textures_ = {};  ///< shared texture -> its copy for normal maps

@@ -55,7 +55,7 @@ struct ConvertedHeights {
     bool is_height_map = false;
     Bytes file = {};           ///< PNG; empty: not converted
     std::string why_not = {};  ///< reason why it was not converted, as a clause
-    double mean_lean_deg = 0;  ///< as HeightToNormalReport::mean_lean_deg
+    double mean_lean_deg = 0;  ///< same meaning as HeightToNormalReport::mean_lean_deg
 };
 
 /// Converts height map `image` to a normal map for all primitives of the material; white is `strength` units high.

@@ -50,8 +50,8 @@ void checkOptions(const std::string& input, const GenerateOptions& options) {
     if (const std::string why = whyMapsUnchanged(input, options); !why.empty()) refuse(why);
 }
 
-/// Returns whether an input is an OBJ file, by its name, because OBJ has no signature. All other files are read as
-/// glTF, which rejects unsupported formats.
+/// Returns whether an input is an OBJ file. Examines its name, because OBJ has no signature. All other files are read
+/// as glTF, which rejects unsupported formats.
 bool isObj(const std::string& input) { return lowerExtension(input) == ".obj"; }
 
 Result<GenerateReport> generateAny(const std::string& input, const std::string& output, const GenerateOptions& options,

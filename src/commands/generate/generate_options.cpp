@@ -128,8 +128,9 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
     add(list, group,
         number("--refine", tangents.refine, 2,
                "Number of refinement steps of --method best and --normals best: 0, 1 or 2. Each step reduces the "
-               "shading error between vertices: interpolated tangents follow the edges more closely, and interpolated "
-               "normals are closer to perpendicular to them. Default: 1 for tangents, 2 for normals."))
+               "shading error between vertices: it adjusts the frames so that, interpolated along an edge, tangents "
+               "reproduce the direction of the edge more closely, and normals are closer to perpendicular to it. "
+               "Default: 1 for tangents, 2 for normals."))
         .default_text.clear();
     add(list, group,
         flag("--bitangents", options.tangents.bitangents,
@@ -235,10 +236,10 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
     add(list, "Normals",
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.normals.compute.weld_distance,
                      NormalOptions::weld_auto, 1000000000,
-                     "Weld distance, in the unit of positions before node transforms: positions that differ by at most "
-                     "this in each coordinate are welded when normals are computed and winding is fixed. 0: only equal "
-                     "positions; auto: twice the float spacing at the largest coordinate of the mesh. Tangents are "
-                     "always computed on the unwelded positions."));
+                     "Weld distance, in mesh units (before node transforms): positions that differ by at most this "
+                     "distance in each coordinate are welded when normals are computed and winding is fixed. 0: only "
+                     "equal positions; auto: twice the float spacing at the largest coordinate of the mesh. Tangents "
+                     "are always computed on the unwelded positions."));
     add(list, "Normals",
         flag("--normals-per-primitive", options.normals.per_primitive,
              "Compute the normals of each primitive only from its own triangles. By default, normals are smooth across "
@@ -258,19 +259,20 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
         flag("--fix-winding", options.mend_winding,
              "Flip triangles whose winding disagrees with their neighbors, and connected components that are inside "
              "out, before any other step. The outside of a component is determined by the first of these rules that "
-             "applies: its existing normals, if they agree; its signed volume, or its nesting in other components, if "
-             "it is closed; its winding number, if it is open and has an inside; the winding of most of its area. See "
-             "docs/concepts/winding.md."))
+             "applies: (1) its existing normals, if they agree; (2) if it is closed, its signed volume or its nesting "
+             "in other components; (3) if it is open but has an inside, its winding number; (4) the winding of most of "
+             "its area. See docs/concepts/winding.md."))
         .old_names = {"--mend-winding"};
     add(list, "Repair",
         setting(
             "--no-sanitize", options.tangents.sanitize, false,
-            "Write the raw tangents of the method, even if they are not finite, zero, not of unit length, parallel to "
-            "the normal, or of different signs within a face. By default such tangents are repaired and counted."));
+            "Write the raw tangents of the method, even if they contain NaN or infinity, are zero, do not have unit "
+            "length, are parallel to the normal, or have different signs within a face. By default such tangents are "
+            "repaired and counted."));
     add(list, "Repair",
         flag("--orthogonalize", options.tangents.sanitize_options.orthogonalize_all,
-             "Also give every valid tangent unit length and make it orthogonal to its normal. Where normals are not of "
-             "unit length, the result then no longer matches bakes exactly."));
+             "Normalize every tangent and make it orthogonal to its normal, including tangents that need no repair. "
+             "Where normals do not have unit length, the result then no longer matches bakes exactly."));
     addRunning(list, options.execution,
                "Number of threads; 0: one per core. The output is the same for any number of threads.", options.file);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes packed frames for all primitives that have frames; the last edit of a run.
+// Writes packed frames for all primitives that have frames. This is the last edit of a run.
 #pragma once
 
 #include <span>

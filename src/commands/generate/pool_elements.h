@@ -39,7 +39,7 @@ struct PoolElements {
     std::map<std::size_t, CarriedElements> carried = {};
     std::vector<ElementData> indices = {};
     /// The old index of each vertex, and the corners of each geometry. Set after a split if an extension may contain
-    /// vertex numbers (see vertex_numbers.h).
+    /// vertex indices (see vertex_numbers.h).
     std::vector<std::uint32_t> sources = {};
     std::vector<std::vector<std::uint32_t>> corners = {};
     ElementData normals = {}, tangents = {}, bitangents = {};

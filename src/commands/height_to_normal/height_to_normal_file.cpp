@@ -165,8 +165,8 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
     add(list, kInputAndOutput,
         fileOption(
             "--mesh", "FILE", options.mesh,
-            "The model that shows the map. Slopes are then measured on its surface, independent of the image size and "
-            "of the UVs, and the normals are written in its tangent frames; missing tangents are computed.",
+            "Model that uses the map. Slopes are then measured on its surface, independent of the image size and of "
+            "the UVs, and the normals are written in its tangent frames; missing tangents are computed.",
             InputKind::model));
     addMaterialOfMap(list, options.material);
     add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything except writing the output."));

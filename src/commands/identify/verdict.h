@@ -18,8 +18,8 @@ inline constexpr double kTieShare = 0.005;
 /// Returns the methods that are tried, the best-known first.
 std::vector<Method> knownMethods();
 
-/// Returns whether the stored tangents are closer to the results of `a` than to those of `b` by more than rounding: the
-/// mean angle is less than half.
+/// Returns whether the stored tangents are clearly closer to the results of `a` than to those of `b`: the mean angle of
+/// `a` is less than half that of `b`, beyond rounding. A mean of exactly 0 is closer than any other.
 bool isCloser(const Explanation& a, const Explanation& b);
 
 /// For each UV set that has area, explains the tangents by every method, and by mikktspace on quads if that explains
@@ -27,8 +27,9 @@ bool isCloser(const Explanation& a, const Explanation& b);
 Result<std::vector<Explanation>> explainTangents(const ScenePrimitive& primitive, const IdentifyOptions& options);
 
 /// Sorts explanations by score: the number of near corners, where a corner that is near only to the result of another
-/// corner of its vertex counts half. Ties keep their order. Among explanations that are equal to the best (by corners,
-/// or by isCloser), one with the UV set of the texture is first, and among several of them the best-known method.
+/// corner of its vertex counts half. Ties keep their order. Among explanations that are equal to the best (in their
+/// corners, and according to isCloser), one with the UV set of the texture is first, and among several of them the
+/// best-known method.
 void sortExplanations(std::vector<Explanation>& explanations);
 
 /// Returns the best explanation that uses the UV set of the texture, transformed if `is_transformed`; null: none.

@@ -294,12 +294,11 @@ void addRaysToVerdict(Measuring& state) {
     if (!state.other_rays) return;
     const TriedRays& best = state.tried.front();
     const bool is_near = best.reach == state.options.map.reach;
-    const std::string away = is_near ? "" : ", within " + shortNumber(best.reach);
-    state.report.verdict += (state.report.verdict.empty() ? "The map was baked with " : " It was baked with ") +
-                            raysPhrase(best.options) + away + ": measured with these rays, its error is " +
-                            degreesWord(best.error.mean_deg) + " degrees on average, and with " +
-                            raysPhrase(state.options.map.rays) + " it is " + degreesWord(state.report.error.mean_deg) +
-                            ".";
+    const std::string away = is_near ? "" : " (reach " + shortNumber(best.reach) + " model units)";
+    state.report.verdict +=
+        (state.report.verdict.empty() ? "The map was baked with " : " It was baked with ") + raysPhrase(best.options) +
+        away + ": its mean error is " + degreesWord(best.error.mean_deg) + " degrees with these rays, and " +
+        degreesWord(state.report.error.mean_deg) + " degrees with " + raysPhrase(state.options.map.rays) + ".";
 }
 
 /// Sorts the interpretations and judges the best. `asked` is a copy, because the list is sorted.

@@ -97,7 +97,8 @@ struct PosedSurface {
     ShownSurface shown = {};
 };
 
-/// Keeps a reference to the scene and the textures.
+/// The meshes of a model in their poses, prepared for drawing one kind of picture (RenderShow). References the scene
+/// and the textures, which must outlive it.
 class ModelPicture {
   public:
     /// Prepares all primitives that have triangles. `poses`: one per placement, or none. Throws FileError.

@@ -79,8 +79,9 @@ void addLimits(OptionList& list, FileOptions& file) {
     constexpr unsigned kMaxSeconds = 1000000;
     add(list, kRunning,
         number("--import-seconds", file.import_max_seconds, kMaxSeconds,
-               "CPU time limit in seconds for reading one file of an imported format (FBX, PLY, DAE, ...); 0: 2 "
-               "seconds plus 1 second per MiB of the file."));
+               "Time limit in seconds for reading one file of an imported format (FBX, PLY, DAE, ...), for CPU time "
+               "and for wall-clock time. 0: 2 seconds plus 1 second per MiB of the file for CPU time, and ten times "
+               "that for wall-clock time."));
 }
 
 void addLengths(OptionList& list, const char* group, TexelLengths& lengths) {

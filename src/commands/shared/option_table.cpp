@@ -239,7 +239,8 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearestName(const std::string& word, const std::vector<std::string>& names) {
-    // Minimum and maximum length of names; for example, "-q" is not a misspelled "-h".
+    // Only words of these lengths are matched: almost any shorter word is one typing error away from another (for
+    // example, "-q" is not a misspelled "-h").
     constexpr std::size_t kShortest = 3, kLongest = 64;
     if (word.size() < kShortest || word.size() > kLongest) return {};
     // One typing error per three letters is allowed, so that short words that differ do not match.

@@ -40,7 +40,8 @@ struct Option {
     std::string group = {};                 ///< heading of the help under which the option is listed
     std::vector<std::string> choices = {};  ///< allowed values; empty: all values that `take` accepts
     bool is_file = false;                   ///< the value is a path; used by completions
-    InputKind reads = InputKind::any;       ///< inputs of other kinds are rejected by their names
+    /// kind of input that the option reads; files whose extension indicates another kind are rejected
+    InputKind reads = InputKind::any;
     bool is_required = false;
     bool is_repeatable = false;
     bool is_list = false;                    ///< the value is a comma-separated list of choices
@@ -66,7 +67,7 @@ struct Given {
     [[nodiscard]] bool has(const std::string& name) const;
 };
 
-/// Options of one call.
+/// All options of a command, or of the equivalent library call.
 using OptionList = std::vector<Option>;
 
 /// Appends an option under the heading `group` in help.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// UVs that tangents may follow.
+// UVs by which the textures of a primitive are sampled (a UV set, with or without its texture transform), for
+// comparison with tangents.
 #pragma once
 
 #include <cstddef>

@@ -26,7 +26,7 @@ class TriangleGroups {
     /// no group has, means that the corner contributes to no group.
     virtual void read(std::size_t first, std::size_t triangles, std::uint32_t* vertices,
                       std::uint32_t* groups) const = 0;
-    /// Like read(), for any list of triangles.
+    /// Reads the triangles of a list; otherwise like read().
     virtual void readSome(const std::uint32_t* numbers, std::size_t size, std::uint32_t* vertices,
                           std::uint32_t* groups) const {
         for (std::size_t i = 0; i < size; ++i)

@@ -103,7 +103,7 @@ struct Columns {
 /// A face adjacent across an edge.
 struct Near {
     std::uint32_t face;
-    float weight;  ///< weight of the face in the filter, by its area and proximity
+    float weight;  ///< weight of the face in the filter; depends on its area and distance
 };
 
 /// Total edge length per degree of the dihedral angle.
@@ -321,16 +321,19 @@ void filterNormals(CreaseFinder& finder) {
         filterFaces(finder, nearOf, per_turn, passes);
 }
 
-/// Returns whether less than a quarter of the edges, by length, has angles of up to 8 degrees. In shapes with sharp
-/// edges, decimated to 1 % or less, the flattest quarter reaches 4 degrees. In smooth shapes with so few triangles that
-/// the histogram has no gap, it reaches 12 (scripts/accuracy --kinds); their edges of 40 degrees and more are soft.
+/// Returns whether edges with angles of up to 8 degrees have less than a quarter of the total edge length. In shapes
+/// with sharp edges, decimated to 1 % or less, the flattest quarter reaches 4 degrees. In smooth shapes with so few
+/// triangles that the histogram has no gap, it reaches 12 (scripts/accuracy --kinds); their edges of 40 degrees and
+/// more are soft.
 bool isBentEverywhere(const Histogram& angles) {
     double flat = 0;
     for (std::size_t bin = 0; bin < 8; ++bin) flat += angles.lengths[bin];
     return flat < angles.all / 4;
 }
 
-/// Returns the middle of the widest range of angles with the fewest edges, by length.
+/// Returns the center of the widest gap of the angle histogram: the angle range in which the blurred edge length per
+/// degree is within 5e-5 (of the total edge length) of the minimum. If the mesh has little noise and its histogram has
+/// no gap, returns a fixed angle.
 double angleInGap(const CreaseFinder& finder, const Histogram& angles) {
     constexpr int kBlur = 6;
     constexpr double kMost = 70;

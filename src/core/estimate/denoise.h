@@ -312,7 +312,8 @@ double measureNoise(const NormalGroups& groups, const Allocator* allocator, Posi
 /// Converts lengths from units of the mean edge of the noisy mesh to units of the mean edge without noise.
 PositionNoise withoutGrowth(PositionNoise noise);
 
-/// Like measureNoise, for a call without normals: measures the mesh that decides which edges are hard.
+/// Returns the result of measureNoise for a call without output normals. It measures the mesh that determines hard
+/// edges (`call.mesh`), in units of the mean edge of the posed mesh. 0 if no edge has a finite length.
 double roughnessOf(const NormalsCall& call);
 
 /// Dihedral angles in degrees, weighted by edge length: first quartile and median.

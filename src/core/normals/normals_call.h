@@ -160,17 +160,17 @@ struct NormalsCall {
     const EdgeKind* edges = nullptr;  ///< edge kind of each corner; null: all edges are decided by their angle
 };
 
-/// Fast path for the common case: triangles, all weightings except max, and one normal per point. Scratch memory: 4
-/// bytes per vertex, that of RangeLists, and 1 MB, or up to 4 MB for each of several threads. If consecutive triangles
-/// are far apart: 36 bytes per vertex. For `best`: 60 bytes per vertex, and SumRounds. Welding temporarily takes 10 to
-/// 24 bytes per vertex. Throws OutOfMemory.
+/// Averages normals in the common case (fast path): triangles, all weightings except max, and one normal per point.
+/// Scratch memory: 4 bytes per vertex, that of RangeLists, and 1 MB, or up to 4 MB for each of several threads. If
+/// consecutive triangles are far apart: 36 bytes per vertex. For `best`: 60 bytes per vertex, and SumRounds. Welding
+/// temporarily takes 10 to 24 bytes per vertex. Throws OutOfMemory.
 NormalReport smoothTriangles(const NormalsCall& call);
 
-/// General path: faces of any size, hard edges, all weightings. Processes ranges of points, with a list of the corners
-/// around each point. Scratch memory: 4 bytes per vertex, that of RangeLists, that of MeshFaces if faces differ in
-/// size, and for each task 150 bytes per triangle of a range (an eighth of a small mesh, about 8000 triangles of a
-/// large one); for `best`, 28 more bytes per corner. Welding temporarily takes 10 to 24 bytes per vertex. Throws
-/// OutOfMemory.
+/// Averages normals in the general case: faces of any size, hard edges, all weightings. Processes ranges of points,
+/// with a list of the corners around each point. Scratch memory: 4 bytes per vertex, that of RangeLists, that of
+/// MeshFaces if faces differ in size, and for each task 150 bytes per triangle of a range (an eighth of a small mesh,
+/// about 8000 triangles of a large one); for `best`, 28 more bytes per corner. Welding temporarily takes 10 to 24 bytes
+/// per vertex. Throws OutOfMemory.
 NormalReport smoothFaces(const NormalsCall& call);
 
 /// Calls smoothTriangles or smoothFaces.

@@ -175,8 +175,8 @@ class RangeWork {
   private:
     /// Returns the index of a point in `begins`; all points of other ranges share one index.
     [[nodiscard]] std::uint32_t placeOf(std::uint32_t point) const { return std::min(point - first_, count_); }
-    /// Counting sort of entries by point: `begins` counts two entries ahead, so that after summing and filling it
-    /// contains the begin of each point.
+    /// Counts an entry of a point, as the first step of a counting sort of entries by point. `begins` counts two
+    /// entries ahead, so that after summing and filling it contains the begin of each point.
     void countAt(std::uint32_t point) { ++memory_.begins[placeOf(point) + 2]; }
     void enter(std::uint32_t point, std::uint32_t entry) {
         memory_.entries[memory_.begins[placeOf(point) + 1]++] = entry;

@@ -139,9 +139,9 @@ class PointComponents {
         }
     }
 
-    /// Fast path for few corners, no two of which have the same next or the same previous point: no list of edges has
-    /// to be sorted. Returns false for other cases, without changes. (std::has_single_bit is a function call on
-    /// baseline x86-64.)
+    /// Joins the corners around a point in the frequent case of few corners, no two of which have the same next or the
+    /// same previous point. No list of edges has to be sorted then. Returns false for other cases, without changes.
+    /// (std::has_single_bit is a function call on baseline x86-64.)
     bool joinFans() {
         FewPoints next, previous;
         std::uint8_t follower[kFew];

@@ -77,7 +77,7 @@ struct Ray {
         // The margin compensates for rounding, which can make boxes slightly too small.
         return near <= far * (1 + 1e-12);
     }
-    /// Returns whether the ray intersects a triangle, by the test of Moeller and Trumbore, 1997.
+    /// Returns whether the ray intersects a triangle. Based on: Moeller and Trumbore, 1997.
     [[nodiscard]] bool meets(const DVec3& a, const DVec3& b, const DVec3& c) const {
         const DVec3 ab = b - a, ac = c - a, across = cross(direction, ac);
         const double scale = dot(ab, across);

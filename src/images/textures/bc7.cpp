@@ -52,7 +52,7 @@ constexpr std::uint8_t kThirdOfThree[64] = {15, 8, 8,  3,  15, 15, 3,  8,  15, 1
                                             15, 3, 15, 10, 10, 8,  9,  10, 6,  15, 8,  15, 3,  6,  6,  8,
                                             15, 3, 15, 15, 15, 15, 15, 15, 15, 15, 15, 15, 3,  15, 15, 8};
 
-/// Interpolation weights in 64ths, by the number of index bits.
+/// Interpolation weights in 64ths, one table for each number of index bits.
 constexpr std::uint8_t kBc7Weights[5][16] = {{},
                                              {},
                                              {0, 21, 43, 64},

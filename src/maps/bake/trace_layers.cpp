@@ -3,7 +3,7 @@
 //
 //   1. prepareLayers: background values
 //   2. traceMeans: materials inside of triangles, as means over the rays of each texel (without a fit)
-//   3. traceCenters: all layers, by the ray of each texel's center
+//   3. traceCenters: all layers, with one ray per texel, from its center
 //   4. fitMaterial: materials by least squares (with a fit)
 //   5. finish: range and missing texels of each layer, then setOcclusion
 #include "maps/bake/trace_layers.h"
@@ -89,7 +89,7 @@ struct LayerTracing {
     LowUvs uvs{surfaces.low(), work.allocator};
     std::array<std::size_t, kMapLayerCount> numbers = {};  ///< index of each layer in `made`
     std::vector<BakedLayer> made = {};
-    Buffer<TexelState> met = {};  ///< state of each texel, by the ray of its center
+    Buffer<TexelState> met = {};  ///< state of each texel, determined with the ray of its center
     bool has_material = false;
     Buffer<std::uint16_t> sample_count = {};
     Buffer<TexelRole> roles = {};

@@ -129,7 +129,7 @@ class Tracing {
         decideVotes();
     }
 
-    /// Returns whether a triangle contributes to a texel, by the rank of its UV island.
+    /// Returns whether a triangle contributes to a texel. The rank of its UV island decides this.
     [[nodiscard]] bool counts(std::size_t texel, std::uint32_t triangle) const {
         return traced_.ranks.size() == 0 || traced_.owners[texel] == traced_.ranks[triangle];
     }

@@ -29,7 +29,8 @@ struct TexelEdges {
     [[nodiscard]] double size() const { return std::sqrt(length(cross(u, v))); }
 };
 
-/// Computes the edges of texels on a triangle. Returns false if the triangle has no UV area.
+/// Computes the two edge vectors of a texel (one texel step along u and along v) on the surface of a triangle. Returns
+/// false if the triangle has no UV area.
 bool edgesOf(const MapSide& mesh, std::size_t triangle, const HeightMap& map, TexelEdges& edges) {
     const auto at = [&](std::size_t k) { return 3 * triangle + k; };
     const Vec2 first = mesh.uvs[at(0)];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fills the rows of texel centers inside each triangle, in integer arithmetic.
+// Rasterizes UV triangles: finds the texel centers inside each triangle, in integer arithmetic.
 #include "maps/layout/uv_coverage.h"
 
 #include <algorithm>

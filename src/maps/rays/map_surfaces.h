@@ -99,7 +99,7 @@ class MapSurfaces {
     /// Computes truthAt for at most kLinesAtOnce points, which is faster than single calls if they are close together.
     /// The normal of a point without a hit is zero.
     void truthsAt(std::span<const LowPoint> points, double& guess, std::span<DVec3> normals) const;
-    /// Like truthsAt, but computes complete hits. Bit i of the result is set if hits[i] is valid.
+    /// Computes the same hits as truthsAt, but with all members. Bit i of the result is set if hits[i] is valid.
     [[nodiscard]] std::uint32_t hitsAt(std::span<const LowPoint> points, double& guess,
                                        std::span<SurfaceHit> hits) const;
 

@@ -45,8 +45,8 @@ struct HardEdges {
     // The two nearest hard edges of each corner, reached over faces that meet smoothly, at most `far` away. Empty, like
     // the other arrays, if no edge is hard.
     std::vector<std::array<std::uint32_t, 2>> nearest = {};
-    /// Group of each corner: corners with the same position whose faces meet smoothly have the same group, which is one
-    /// of the corners.
+    /// Group ID of each corner. Corners at one position whose faces meet smoothly have the same ID, which is the index
+    /// of one of these corners.
     std::vector<std::uint32_t> groups = {};
     std::vector<bool> at_edge = {};  ///< flag of each group: a hard edge starts or ends at one of its corners
 };

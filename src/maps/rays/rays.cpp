@@ -207,7 +207,7 @@ bool meetEitherSide(const Query& query, std::uint32_t triangle, PlanePoint& poin
     return true;
 }
 
-/// Filter for triangles that may block a line. Rejects other triangles, so that Embree continues its search.
+/// Embree filter: accepts triangles that block a line. Rejects all others, so that Embree continues its search.
 void acceptBlocking(const RTCFilterFunctionNArguments* arguments) {
     forLines(arguments, [](const Query& query, std::uint32_t triangle, int& valid) {
         PlanePoint point;
@@ -238,7 +238,7 @@ void takeHit(Query& query, std::uint32_t triangle) {
     query.best = {triangle, point.weights, point.distance};
 }
 
-/// Filter that records hits. Rejects every triangle, so that Embree visits all others.
+/// Embree filter: records hits. Rejects every triangle, so that Embree visits all others.
 void collectHits(const RTCFilterFunctionNArguments* arguments) {
     forLines(arguments, [](Query& query, std::uint32_t triangle, int& valid) {
         valid = 0;

@@ -11,7 +11,7 @@
 
 namespace tspace::gltf {
 
-/// Bytes that are generated once, by the first thread that needs them.
+/// Bytes that the first thread that needs them generates, once.
 class BufferBytes::Later {
   public:
     explicit Later(std::shared_ptr<const ByteMaker> maker) : maker_(std::move(maker)) {}

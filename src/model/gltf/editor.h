@@ -100,7 +100,7 @@ class Editor {
     std::vector<Extent> extents_;  ///< extents before any edit
     std::vector<ByteRange> vacated_;
     std::vector<std::size_t> spare_views_;             ///< indices of views without uses, which are reused
-    std::map<std::size_t, MeshoptRequest> to_encode_;  ///< views to encode with meshopt, by index
+    std::map<std::size_t, MeshoptRequest> to_encode_;  ///< views to encode with meshopt; key: view index
     std::set<std::size_t> changed_accessors_;
     bool changed_ = false;
 };

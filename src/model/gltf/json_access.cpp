@@ -71,7 +71,7 @@ std::optional<std::uint64_t> wholeNumber(const Json& value) {
 ParsedJson parseJson(std::span<const std::uint8_t> bytes, MemoryBudget* budget) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     ParsedJson result{parseText(text, budget), styleOf(text)};
-    if (!result.root.is_object()) failJson("the JSON is not an object", {});
+    if (!result.root.is_object()) failJson("the top level of the JSON is not an object", {});
     return result;
 }
 

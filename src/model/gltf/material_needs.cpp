@@ -186,7 +186,8 @@ bool suggestsFlow(const std::string& text) {
     });
 }
 
-/// Returns whether the extras of an object suggest hand-authored directions, by the name of a member or by its text.
+/// Returns whether the extras of an object suggest hand-authored directions. Examines the names and texts of their
+/// members.
 bool mentionsFlow(const Json& object) {
     const Json* extras = findMember(object, "extras");
     if (extras == nullptr || !extras->is_object()) return false;

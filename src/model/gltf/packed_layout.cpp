@@ -74,8 +74,8 @@ void putPart(const Bytes& elements, FrameFormat format, const PackedPart& part, 
 
 namespace {
 
-/// Minimum number of frames per task. Packing a frame takes about as long as ten corners of a method (the unit of
-/// Parallel).
+/// Minimum number of frames per task. Parallel measures work in corners processed by a method; packing a frame costs
+/// about ten of them.
 constexpr std::size_t kPackGrain = 512, kCornersPerFrame = 10;
 
 void add(const PackReport& part, PackReport& sum) {

@@ -137,7 +137,7 @@ std::optional<StridedSpan<const Vec3>> lendVec3(const Document& document, const 
 std::vector<Vec3> readOffsets(const Document& document, const Primitive& primitive, std::size_t target,
                               const char* attribute);
 
-/// Multiplies normals, or offsets of normals, by the scales of the primitive.
+/// Multiplies normals, or morph offsets of normals, by the normal scales of the primitive.
 void scaleNormals(const Primitive& primitive, std::vector<Vec3>& normals);
 
 }  // namespace tspace::gltf

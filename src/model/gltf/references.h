@@ -50,7 +50,7 @@ void cutVacated(Document& document, std::span<const ByteRange> vacated);
 /// indices in views and extensions.
 void removeUnreferencedBuffers(Document& document);
 
-/// Removes own buffers that have become empty: glTF does not allow buffers of length 0.
+/// Removes buffers of the output (not of the input files) that became empty: glTF does not allow buffers of length 0.
 void removeEmptiedBuffers(Document& document);
 
 }  // namespace tspace::gltf

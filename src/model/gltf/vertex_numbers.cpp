@@ -226,11 +226,12 @@ void VertexNumbers::noteOthers(const Primitive& primitive) {
 std::vector<std::string> VertexNumbers::warnings() const {
     std::vector<std::string> list;
     for (const auto& [name, count] : left_) {
-        const std::string primitives = count == 1 ? "1 primitive has" : std::to_string(count) + " primitives have";
-        list.push_back(name == kCounts
-                           ? primitives + " new vertex numbers, but " + name + " still contains the old counts"
-                           : "the extension " + name + " may refer to vertices by number, but " + primitives +
-                                 " new vertex numbers; the extension was not changed");
+        const std::string renumbered = "the vertices of " +
+                                       (count == 1 ? "1 primitive" : std::to_string(count) + " primitives") +
+                                       " were renumbered, ";
+        list.push_back(renumbered + (name == kCounts ? "but the counts in " + name + " were not updated"
+                                                     : "and the extension " + name +
+                                                           ", which may contain vertex indices, was not updated"));
     }
     return list;
 }

@@ -121,7 +121,7 @@ class InputFiles {
     void allowReplacing(const Path& path);
     /// Returns whether `path` is one of the inputs, under any name (links, relative paths).
     [[nodiscard]] bool has(const Path& path) const;
-    /// Number of the call; unique in this process.
+    /// Returns a number for the call that is unique in this process.
     [[nodiscard]] std::uint64_t call() const { return call_; }
 
   private:

@@ -366,7 +366,9 @@ void addFace(void* user, tinyobj::index_t* indices, int count) {
               .smoothing_group = build.notes->faces[build.face_line].smoothing_group,
               .line = build.notes->faces[build.face_line].line};
     if (model.corners.size() + face.corner_count > kMaxCorners) {
-        failFile(ErrorCode::unsupportedFile, "the file has more corners than a mesh can have", currentPlace(build));
+        failFile(ErrorCode::unsupportedFile,
+                 "the file has more than " + std::to_string(kMaxCorners) + " face corners, the limit of a mesh",
+                 currentPlace(build));
     }
     for (int i = 0; i < count; ++i) {
         const tinyobj::index_t& index = indices[i];

@@ -49,10 +49,10 @@ class ModelFile {
     /// Returns the scene with placements and looks; `with_images`: also the bytes of images that pictures need. Faces
     /// of an OBJ file that have no normals get the normals that generateFile computes.
     [[nodiscard]] DrawnScene drawnScene(bool with_images);
-    /// Like drawnScene, with everything that materials use: images of base color, metalness and emission, and vertex
-    /// colors as stored. `with_normal_maps`: normal maps too. OBJ has only base color images.
+    /// Returns the result of drawnScene, with everything that materials use: images of base color, metalness and
+    /// emission, and vertex colors as stored. `with_normal_maps`: normal maps too. OBJ has only base color images.
     [[nodiscard]] DrawnScene materialScene(bool with_normal_maps);
-    /// Like drawnScene, with all textures of materials, and with the pose stored in the file.
+    /// Returns the result of drawnScene, with all textures of materials, and with the pose stored in the file.
     [[nodiscard]] PosedScene posedScene(bool with_images);
 
     [[nodiscard]] bool isObj() const { return std::holds_alternative<obj::Model>(model_); }

@@ -59,7 +59,7 @@ Model files (glTF, GLB, OBJ), on disk or in memory
     height_to_normal_file               converts a height map to a normal map
     compress_map_file, compress_map_bytes   compresses a normal map to a texture for engines
     bake_file       bakes the maps of a low poly from a high poly
-    finish_file     prepares a generated or scanned mesh for use, with all maps
+    finish_file     repairs a generated or scanned mesh, and bakes maps onto a low poly
 
 Arrays
     Positions and normals have shape (vertices, 3), UVs (vertices, 2), indices (corners,) or (faces, k); lengths may

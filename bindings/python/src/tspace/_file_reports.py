@@ -525,7 +525,7 @@ class BakeReport(Report):
 class HighMap(Report):
     #: URI or name of the image in the high poly.
     image: str
-    #: Name of the first material that shows the map; may be empty.
+    #: Name of the first material that uses the map; may be empty.
     material: str
     #: Factor that is applied to x and y of the map (glTF's "normalTexture.scale").
     scale: float
@@ -533,7 +533,7 @@ class HighMap(Report):
     green: str
     #: How the direction of green was determined: by the format, "--high-green", the file, or the slopes of the map.
     green_is: str
-    #: Triangles of the high poly that show the map.
+    #: Triangles of the high poly whose material uses the map.
     triangles: int
 
 

@@ -66,7 +66,7 @@ class ConvertMapReport(Report):
     bits: int
     #: The part that was used of the model that the map was made for; null without a model.
     from_: Optional[MapMesh]
-    #: The part that was used of the model that will show the map; null if it is the same file.
+    #: The part of the model "--to-mesh" that was used; null if it is the same file as "--mesh".
     to: Optional[MapMesh]
     #: Texels inside triangles or their padding.
     converted: int

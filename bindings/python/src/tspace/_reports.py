@@ -52,13 +52,14 @@ class PositionNoise(NamedTuple):
     #: Standard deviation of positions from a smooth surface through their neighbors, along the normal. Includes
     #: detail of the size of a triangle. 0: fewer than 200 vertices have enough neighbors for a measurement.
     sigma: float
-    #: Median share, 0..1, of the change of normals along an edge that no smooth surface can have. Noise: 0.3 to 0.8;
-    #: CAD, bevels and decimated meshes: less, for the same sigma.
+    #: How abruptly normals change along edges, from 0 to 1: the median over the sampled edges of x^2 / (x^2 + y^2),
+    #: where x is the part of the change that uniform bending cannot explain (0 on a circle), and y the part that it
+    #: explains. Noise: 0.3 to 0.8. CAD models, bevels and decimated meshes: less, for the same sigma.
     kink_share: float
     #: Part of `sigma` that is noise, which `denoise` removes automatically. 0: positions are not noisy, or most
     #: edges are flatter than noise would leave them.
     noise: float
-    #: Mean edge length of a sample, in the unit of positions, minus the share that noise of sigma adds.
+    #: Mean length of the sampled edges, in mesh units, without the length that noise of `sigma` adds to them.
     mean_edge: float
 
 

@@ -51,7 +51,7 @@ class MorphSplit {
 // Offsets of morph targets for the tangents of a pool: tangents of the moved shape with the groups of the base, minus
 // those of the base. If a target separates vertices that are equal on the base, the moved shape is regrouped.
 
-/// Classes of vertices with equal position, normal and UV, across which groups extend.
+/// Classes of vertices with equal position, normal and UV. Tangents may be averaged over all vertices of a class.
 class WeldClasses {
   public:
     /// Finds the classes in expected linear time; keeps 4 bytes per vertex.

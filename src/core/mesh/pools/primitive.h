@@ -115,8 +115,8 @@ struct FramesReport {
     bool bitangents_generated = false;
     NormalReport normals = {};
     std::uint64_t normals_behind_count = 0;  ///< corners whose generated normal points to the back of their triangle
-    /// Triangles wound against most of their connected neighbors. Counted, like two_sided_triangle_count, if normals
-    /// are generated or many vertices were split; otherwise 0.
+    /// Triangles wound opposite to the majority of their connected component. Counted, like two_sided_triangle_count,
+    /// if normals are generated or many vertices were split; otherwise 0.
     std::uint64_t turned_triangle_count = 0;
     /// triangles with the positions of another triangle of the opposite winding
     std::uint64_t two_sided_triangle_count = 0;

@@ -66,8 +66,9 @@ struct QuadFaces {
 /// pairs. Linear.
 QuadPairs choosePairs(const QuadCandidates& candidates, std::span<const float> gains);
 
-/// Selects the pairs that look most like modeled quads: the maximum number of pairs, and among these selections the one
-/// whose shared edges have the most frequent pattern of the list, and whose corners are closest to right angles.
+/// Selects the pairs that look most like modeled quads. The gain of a pair, from 1 to 3, is 1, plus the frequency of
+/// the corner positions of its shared edge among all candidates (relative to the most frequent), plus the closeness of
+/// its corners to right angles. choosePairs maximizes the sum of gains.
 QuadPairs pairsByShape(const MeshView& triangles, const QuadCandidates& candidates);
 
 /// Returns whether turning any of these quads changes the diagonal along which MikkTSpace cuts it.

@@ -135,7 +135,8 @@ constexpr double kVanished = 1e-3;
 /// Ratio of areas below which a triangle has collapsed: each of its sides shrank to about a hundredth.
 constexpr double kCollapsed = 1e-4;
 /// Cosine of 150 degrees. A triangle that rotates further nearly collapses on the way, since vertices move along lines,
-/// and may have been flipped: then no sum of base and offset is its normal at all weights.
+/// and may have been flipped. Then interpolating the normal linearly cannot give the triangle's normal at every morph
+/// weight.
 constexpr double kFlipped = -0.86602540378443865;
 /// Ratio of the area to the squared longest edge below which the area is rounding noise.
 constexpr double kThin = 1e-6;

@@ -259,7 +259,7 @@ inline void addRest(GroupRest& sum, const CornerTerms& terms, std::size_t t, std
 
 struct GroupSums {
     Buffer<Vec3> groups;     ///< weighted tangents, which take most of the memory of an evaluation
-    Buffer<GroupRest> rest;  ///< empty if tangents_only
+    Buffer<GroupRest> rest;  ///< bitangents and lengths of each group; empty if tangents_only
 };
 
 /// Returns whether the sums of bitangents and lengths can be omitted. Conflicts need them: whether two results of a

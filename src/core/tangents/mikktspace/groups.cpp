@@ -58,8 +58,9 @@ void linkSmall(std::span<const NodeCorner> around, const CornerLinks& links) {
     }
 }
 
-/// Sort keys of half-edges: the neighbor in the high word; 2 * corner in the low word, plus 1 for the leaving edge. All
-/// waiting half-edges of one neighbor have the same direction, so the oldest is the partner of the next opposite one.
+/// Links the corners of a node with many corners, by sorting its half-edges. Sort keys: the neighbor in the high word;
+/// 2 * corner in the low word, plus 1 for the leaving edge. All waiting half-edges of one neighbor have the same
+/// direction, so the oldest is the partner of the next opposite one.
 void linkLarge(std::span<const NodeCorner> around, const CornerLinks& links, std::uint64_t* half_edges) {
     const std::size_t count = 2 * around.size();
     for (std::size_t i = 0; i < around.size(); ++i) {

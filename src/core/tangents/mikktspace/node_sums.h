@@ -144,7 +144,8 @@ enum TriangleKind : std::uint8_t {
 
 struct NodeSums {
     Buffer<NodeSum> nodes;
-    /// Marks that all corners of a node share (corner_terms.h); 0 for nodes of degenerate triangles, which are complex.
+    /// Marks that all corners of a node have in common (corner_terms.h). 0 for nodes of degenerate triangles; these
+    /// nodes are complex (words.h).
     Buffer<std::uint16_t> marks;
     Buffer<GroupRest>
         rest;  ///< one per node: bitangents and lengths; their weight is in `nodes`. Empty when tangents_only
@@ -156,8 +157,8 @@ struct NodeSums {
     [[nodiscard]] float* row(std::size_t node) { return nodes[node].s; }
     [[nodiscard]] const float* row(std::size_t node) const { return nodes[node].s; }
 
-    /// Returns whether no triangle contributes to the node, because it has none or all have degenerate UVs. No triangle
-    /// has both marks.
+    /// Returns whether no triangle contributes to the node, because it has none or all have degenerate UVs. Such a node
+    /// has both facing marks, which no triangle has.
     [[nodiscard]] bool isEmpty(std::size_t node) const {
         return (marks[node] & (kFacesUp | kFacesDown)) == (kFacesUp | kFacesDown);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Tangents of a mesh of at most 64 triangles, by the steps of plain.cpp, on the stack: the contributions of all corners
-// are computed at once (corner_terms.h), and a set of triangles is a 64-bit word. The results equal those of the vertex
-// path, whose plans and lists would cost more than the tangents of so few triangles.
+// Computes the tangents of a mesh of at most 64 triangles with the steps of plain.cpp, on the stack: the contributions
+// of all corners are computed at once (corner_terms.h), and a set of triangles is a 64-bit word. The results equal
+// those of the vertex path, whose plans and lists would cost more than the tangents of so few triangles.
 #include <algorithm>
 #include <bit>
 #include <cmath>
