@@ -49,7 +49,8 @@ std::size_t placedCorner(const Affine& place, std::size_t i) {
 
 namespace {
 
-/// Returns the UVs with which the map is read: those of the existing normal map, or of the first use that needs tangents.
+/// Returns the UVs with which the map is read: those of the existing normal map, or else of the first texture that
+/// needs tangents.
 std::vector<Vec2> mapUvs(const ScenePrimitive& primitive) {
     const TangentUse* const use = mapUse(primitive);
     const std::size_t set = use == nullptr ? 0 : use->uv_set;
@@ -233,7 +234,7 @@ void addFlat(const ScenePrimitive& primitive, const Affine& place, OwnedMesh& me
         std::array<Vec3, 3> at{};
         for (std::size_t k = 0; k < 3; ++k)
             at[k] = toFloat(place.point(toDouble(primitive.positions[primitive.corners[placedCorner(place, i + k)]])));
-        // zero for a degenerate triangle; then hits of rays use the normal computed at the hit
+        // Zero for a degenerate triangle; ray hits then use the normal that is computed at the hit.
         const Vec3 normal = cross(at[1] - at[0], at[2] - at[0]);
         for (const Vec3& corner : at) {
             mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));

@@ -92,7 +92,7 @@ struct LowPart {
     void addToRest(const LowPart& from, std::size_t triangle);
 };
 
-/// Parts of a low poly that share a material, and therefore an image.
+/// Triangles of a low poly, with one part for each material, and therefore for each image.
 struct LowModel {
     struct Image {
         std::string material = {};
@@ -168,11 +168,11 @@ std::size_t placedCorner(const Affine& place, std::size_t i);
 /// texture that needs tangents, whose UVs the tangents follow. Null: the first UV set, without a transform.
 const TangentUse* mapUse(const ScenePrimitive& primitive);
 
-/// Reads an image that is an input of the call, by readMapImage.
+/// Reads an image that is an input of the call, with readMapImage.
 FloatImage readFloatImage(const std::string& path, const FileOptions& options, ImageUse use = ImageUse::vectors);
 
-/// Models that replace the files of a bake, whose paths then only provide names. Null: the file is read. The bake changes
-/// the models.
+/// Models in memory that a bake uses instead of files; the paths then only provide names. Null: the file is read. The
+/// bake modifies the models.
 struct BakeSources {
     ModelFile *low = nullptr, *high = nullptr;
 };
@@ -186,8 +186,8 @@ BakeModels readBakeModels(const std::string& low, const std::string& high, const
 /// Returns the triangles of a low poly grouped by image, in file order, to derive file names. Throws FileError.
 LowModel readLowImages(const std::string& low, const BakeFileOptions& options);
 
-/// Returns the low poly with tangents recomputed by `options`.tangents on these faces, in the order of readBakeModels,
-/// or nothing if the method yields a different number of triangles. Throws FileError.
+/// Returns the low poly with tangents that are recomputed on `faces` as `options.tangents` specifies, in the order of
+/// readBakeModels, or nothing if the method yields a different number of triangles. Throws FileError.
 std::optional<LowModel> readLowRecomputed(const std::string& low, const BakeFileOptions& options, Faces faces,
                                           const LowModel& known);
 
@@ -195,7 +195,7 @@ bool shows(const LayerOptions& layers, MapLayer layer);
 /// Returns whether a layer uses materials.
 bool showsMaterials(const LayerOptions& layers);
 
-// Pictures of a bake: the kind of each texel, and the error.
+// Pictures of a bake: the state of each texel, and its error.
 
 /// Returns a picture of the texel states. Red: no hit; yellow: several triangles; green: baked; dark green: padding;
 /// black: background.

@@ -13,8 +13,8 @@ namespace tspace {
 /// extension.
 bool isImageInput(const std::string& input, ByteSpan content);
 
-/// Checks the image like a normal map of a model, and by further tests for single images. The counts of findings are
-/// not set yet. Throws FileError.
+/// Checks the image like a normal map of a model, and with further tests for single images. Does not set the counts of
+/// findings. Throws FileError.
 CheckReport checkImageFile(const std::string& input, const CheckOptions& options);
 
 /// Describes a checked image (CheckReport::image) in a sentence without a trailing period.

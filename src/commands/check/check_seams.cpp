@@ -21,8 +21,8 @@ namespace {
 constexpr double kToDegrees = 180 / kPi;
 /// Normals that differ by less than this angle make no visible seam.
 constexpr double kMinSeamDeg = 2;
-/// A normal is equal to the mean of the primitive's own triangles if it is within this angle of that mean, by any
-/// weighting. The tolerance covers rounding to 8 bits.
+/// A normal counts as the mean of the primitive's own triangles if it is within this angle of that mean, for any of the
+/// three weightings. The tolerance covers rounding to 8 bits.
 constexpr double kOwnDeg = 1;
 /// A border is smooth if it bends at most kMoreBend times as much as the smooth edges of either side. Their bend is the
 /// angle that a share kSmoothPart of them does not exceed.

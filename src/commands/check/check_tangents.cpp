@@ -162,10 +162,12 @@ struct OtherReading {
     std::optional<std::size_t> use = {};
 };
 
-/// Tangents are clearly wrong if they are wrong on more than this share of the surface that has UV area.
+/// Other UVs are tried only if the directions are wrong on more than this share of the surface that has UV area.
 constexpr double kClearlyWrong = 0.2;
-/// Wrong signs without wrong directions are explained only by the primitive's own texture transform, which may mirror.
+/// The primitive's own UV set without its texture transform, which may mirror, is also tried if the signs are wrong on
+/// more than this share.
 constexpr double kSomeSigns = 0.1;
+/// UVs explain the tangents only if directions and signs are wrong on at most this share each.
 constexpr double kExplained = 0.02;
 /// Other UVs explain the tangents only if they have area on at least this share of the surface that has UV area in the
 /// expected UVs.

@@ -48,8 +48,8 @@ double angleInPlane(const Vec3& normal, const Vec3& v, double least, bool& found
 
 double withinTurn(double angle) { return angle > kPi ? angle - kTurn : angle < -kPi ? angle + kTurn : angle; }
 
-/// Returns by how much rounding of the positions may rotate a triangle's direction in the plane of n, in radians; pi
-/// means by any angle.
+/// Returns the maximum angle, in radians, by which rounding of the positions may rotate a triangle's direction in the
+/// plane perpendicular to n; pi: any angle.
 double errorInPlane(const DVec3& n, const SurfaceFrame& face) {
     if (face.tangent_error == 0) return 0;
     const double part = length(cross(n, toDouble(face.tangent)));

@@ -47,9 +47,9 @@ struct FrameHealth {
 
     // Values of single tangents. The flags, `not_orthogonal` and `parallel` concern only vertices that triangles use;
     // the other tallies count all vertices.
-    Tally not_finite;             ///< vertices with x, y, z or w that is not finite
-    bool has_not_finite = false;  ///< some used vertices are not finite
-    Tally not_unit;               ///< finite vertices whose length is not 1
+    Tally not_finite;             ///< vertices whose tangent has a component that is not finite
+    bool has_not_finite = false;  ///< some used vertices have a tangent that is not finite
+    Tally not_unit;               ///< vertices whose tangent is finite, but does not have unit length
     double far_from_unit = 0;     ///< share of the surface with lengths below 0.9 or above 1.1
     bool has_zero = false;        ///< some tangents have zero length
     Tally not_orthogonal;         ///< not perpendicular to N, but not `parallel`

@@ -65,7 +65,7 @@ bool mayHaveXInAlpha(std::span<const TexelBytes> texels);
 /// Returns whether blue contains no information.
 bool isBlueConstant(std::span<const TexelBytes> texels);
 
-/// Returns whether the image decodes to vectors in tangent space by its layout.
+/// Returns whether the image, decoded by its layout, contains vectors in tangent space.
 inline bool holdsNormals(MapContent content) {
     return content != MapContent::objectSpace && content != MapContent::height && content != MapContent::picture &&
            content != MapContent::hemiOctahedral;

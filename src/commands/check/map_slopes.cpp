@@ -35,7 +35,7 @@ void chooseXAndY(const DecodedMap& map, MapLayout& layout) {
 }
 
 /// Returns the layout that the texels of an image with alpha suggest. If all colors are equal, green and alpha may also
-/// hold x and y in reverse.
+/// contain y and x instead of x and y.
 MapLayout guessedLayout(const DecodedMap& map, std::span<const TexelBytes> texels) {
     LayoutDetector guess;
     for (const TexelBytes& texel : texels) {

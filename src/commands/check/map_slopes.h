@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Detects the content of a map by its texels and its slopes. x and y of a normal map are the slopes of a height field,
-// and their derivatives agree only if the channels are interpreted correctly (GreenBlocks).
+// Detects the content of a map from its texels and its slopes. x and y of a normal map are the slopes of a height
+// field, and their derivatives agree only if the channels are interpreted correctly (GreenBlocks).
 #pragma once
 
 #include <cstdint>

@@ -35,8 +35,8 @@ class MovedFaces {
     };
     struct Point {
         std::vector<Face> list = {};
-        /// A face here is degenerate before or after the morph, so the mean normal depends on the face weights, and any
-        /// normal is admitted.
+        /// A face at this point is degenerate before or after the morph, so the mean normal depends on the face
+        /// weights, and any normal is admitted.
         bool is_degenerate = false;
     };
     std::vector<Point> faces_ = {};

@@ -88,8 +88,8 @@ struct Votes {
 constexpr std::uint64_t kMinBlocks = 16;
 /// Thresholds for a whole map, or for the texels that one primitive covers.
 constexpr double kMinCorrelation = 0.1, kMinAgreement = 0.65;
-/// Thresholds for a part that contradicts another part of its map, and for means if single texels give no verdict. They
-/// are strict, so that chance and unusual relief do not produce such a part.
+/// Thresholds for a part that contradicts another part of its map, and for averages of texels if single texels give no
+/// verdict. They are strict, so that chance and unusual relief do not produce such a part.
 constexpr double kPartCorrelation = 0.3, kPartAgreement = 0.8;
 /// Minimum number of blocks in a part, and their minimum share of all voting blocks.
 constexpr std::uint64_t kMinPartBlocks = 16;
@@ -239,9 +239,9 @@ GreenTest GreenBlocks::judge(const IsChosen& isChosen) const {
     return test;
 }
 
-/// Decides by means of texels, which compression and noise blur less than single texels. Returns +1 for down, -1 for
-/// up, and 0 if undecided or if the single texels lean to the other side. If decided, `test` receives the votes of the
-/// means.
+/// Decides with the averages of 2 x 2 texels, which compression and noise affect less than single texels. Returns +1
+/// for down, -1 for up, and 0 if undecided or if the single texels lean to the other side. If decided, `test` receives
+/// the votes of the averages.
 template <class IsChosen>
 int GreenBlocks::sideOfMeans(const IsChosen& isChosen, GreenTest& test) const {
     Votes votes;

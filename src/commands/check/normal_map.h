@@ -77,7 +77,7 @@ class GreenBlocks {
     std::uint32_t width_ = 0, height_ = 0;
     std::uint32_t columns_ = 0, rows_ = 0;
     std::vector<Block> blocks_ = {};
-    /// Means of squares of four texels, if single texels are inconclusive for the whole map.
+    /// Blocks measured on averages of 2 x 2 texels; computed only if single texels are inconclusive for the whole map.
     std::vector<Block> means_ = {};
     std::uint32_t part_count_ = 0;
 };

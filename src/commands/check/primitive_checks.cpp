@@ -374,7 +374,7 @@ void checkUvs(PrimitiveFacts& facts) {
     checkDegenerate(facts);
 }
 
-// Checks whether several textures of one primitive need different tangents, since a vertex has only one.
+// Checks whether several textures of one primitive need different tangents; a vertex can store only one.
 
 namespace {
 
@@ -458,8 +458,8 @@ double comparedShare(const PrimitiveFacts& facts) {
 /// unreliable.
 void checkRounding(PrimitiveFacts& facts) {
     PositionRounding rounding = facts.surface.rounding;
-    // If positions were already rounded before their conversion to floats, this matters only to tangents. Without
-    // tangents, only other rounding is reported.
+    // Rounding before the conversion to floats affects only tangents. If nothing uses tangents, only other rounding is
+    // reported.
     const bool has_readers = !facts.primitive.uses.empty() || !facts.primitive.tangents.empty();
     if (rounding.was_before && !has_readers) {
         const std::span<const std::uint32_t> corners = facts.mesh.corners;
@@ -494,7 +494,7 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
     facts.all = scene;
     reportAttributeFaults(facts);
     if (primitive.corners.empty()) {
-        // glTF lights points and lines by their tangents if the material has a normal map.
+        // In glTF, points and lines are shaded with their tangents if the material has a normal map.
         const bool has_positions = primitive.findFault("POSITION") == nullptr;
         if (has_positions && !primitive.tangents.empty() && primitive.uses.empty()) {
             Tally all{.count = 1, .total = 1};

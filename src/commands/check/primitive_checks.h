@@ -64,7 +64,7 @@ struct PrimitiveVerdict {
 /// of the scene, since surfaces may continue across borders of primitives.
 Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf,
                                         std::span<const ScenePrimitive> scene = {});
-/// Returns only the findings, with complete remedies.
+/// Returns only the findings of a primitive, with complete remedies.
 Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf);
 
 // Declares the checks in the order in which they run. checkTangents may detect that tangents follow other UVs, or were

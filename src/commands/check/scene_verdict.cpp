@@ -90,7 +90,7 @@ Work collectWork(const Scene& scene) {
 
 using SharedFaults = std::shared_ptr<const std::vector<VertexFaults>>;
 
-/// Result of one geometry.
+/// Result of checking one geometry.
 struct Judged {
     std::vector<Finding> findings = {};
     SharedFaults faults = {};
@@ -167,7 +167,7 @@ bool makesTangents(const RemedyCommand& command) {
 }
 
 /// Adds the convention to the commands of a remedy: if the check used another convention than the format's, tangents
-/// must be computed by it.
+/// must be computed for it.
 void addConvention(const CheckOptions& options, Finding& finding) {
     if (signFactor(options.convention) == signFactor(conventions::gltf)) return;
     for (RemedyCommand& command : finding.commands) {

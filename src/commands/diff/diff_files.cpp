@@ -36,7 +36,7 @@ class AngleSamples {
     std::uint64_t unusable_count_ = 0;
 };
 
-// Percentiles by the nearest-rank method.
+// Percentiles (nearest-rank method).
 
 /// Returns the smallest value that at least `share` of all values do not exceed.
 double percentile(const std::vector<float>& sorted, double share) {

@@ -222,8 +222,7 @@ std::vector<TrianglePair> pairByPlace(const ScenePrimitive& a, const ScenePrimit
 
 namespace {
 
-/// Returns the key of a primitive: primitives with equal keys are paired. A primitive with an empty key is not paired
-/// by it.
+/// Returns the key of a primitive: primitives with equal keys are paired. Primitives with an empty key are not paired.
 using KeyOf = std::function<std::string(const ScenePrimitive&)>;
 
 class Pairer {

@@ -23,7 +23,7 @@ void noteUnreadableTangents(std::span<const Primitive> primitives, std::span<Pri
 // Writes new tangents and normals into the document. If vertices were split, updates every other attribute, morph
 // target and index list too.
 
-/// Changes the document so that the pool's primitives have the frames in `elements`; moves from their bytes. Without a
+/// Changes the document so that the pool's primitives have the frames in `elements`, whose bytes are moved. Without a
 /// split, changes only TANGENT (and NORMAL and _BITANGENT if they were computed) of the primitives, and of the morph
 /// targets that move positions or normals (with offsets as floats). Fills action and vertices_after in the reports of
 /// the pool's primitives. `numbers`: updates the vertex indices in extensions after a split.

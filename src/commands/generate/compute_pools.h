@@ -28,7 +28,7 @@ struct WeldedVertices {
 /// primitives with CESIUM_primitive_outline, because its lists contain vertex indices. Linear time.
 WeldedVertices weldVertices(const Document& document, const Primitive& primitive);
 
-/// Number of corners whose frames are computed, and of all corners; reported to GenerateOptions::progress.
+/// Number of corners whose frames have been computed, and of all corners; reported to GenerateOptions::progress.
 struct PoolProgress {
     std::uint64_t done = 0, total = 0;
 };

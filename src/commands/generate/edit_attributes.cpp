@@ -61,7 +61,8 @@ bool setAttribute(Editor& editor, const Document& document, const SharedAttribut
     // attributes may be integers without it.
     if (data.normalized && !isPackedAttribute(attribute.name)) editor.require("KHR_mesh_quantization");
     if (attribute.target != kBase) makeSparseWhereSmaller(data);
-    // Morph targets are compressed like their positions; Draco does not compress them.
+    // New attributes of a morph target are compressed like its first attribute, not like the base, because Draco does
+    // not compress morph targets.
     const Json& attributes = attributesOf(editor, first, attribute.target);
     data.like = (attribute.target == kBase ? attributes["POSITION"] : attributes.front()).get<std::size_t>();
     if (current && alone && !data.places && editor.canOverwrite(*current)) {

@@ -128,7 +128,7 @@ void applyReadingOptions(const GenerateOptions& options, Scene& scene) {
     }
 }
 
-/// Judges all primitives. Returns the memory that this needs to the budget; the scene stays with the model.
+/// Judges all primitives. The memory for this is returned to the budget at the end, but the model keeps its scene.
 std::vector<Verdict> judge(Model& model, const GenerateOptions& options) {
     const Document& document = model.document();
     Scene scene = model.scene();
@@ -207,7 +207,7 @@ void planRepair(Model& model, const GenerateOptions& options, GeneratePlan& plan
     for (std::size_t i = 0; i < primitives.size(); ++i)
         is_needed = is_needed || hasIrreplaceableTangents(primitives[i], plan.reports[i]);
     if (!is_needed) return;
-    // Judges all primitives, because normal maps are judged by the whole file.
+    // Judges all primitives, because the verdict on a normal map depends on all primitives of the file.
     const std::vector<Verdict> verdicts = judge(model, options);
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (verdicts[i].is_free && hasIrreplaceableTangents(primitives[i], plan.reports[i]))
@@ -363,7 +363,7 @@ std::vector<std::vector<std::size_t>> findBrokenValues(Model& model, const Gener
     for (const PoolPlan& pool : plan.pools) {
         for (const std::size_t number : pool.primitives) is_computed[number] = !pool.keeps_tangents;
     }
-    // Indices of the primitives that share an accessor, by accessor.
+    // Indices of the primitives that share an accessor; key: accessor.
     std::map<std::size_t, std::vector<std::size_t>> sharing;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const auto accessor = primitives[i].find("TANGENT");

@@ -20,12 +20,12 @@
 
 namespace tspace {
 
-// Decides by the findings of `check` on green channels and tangent signs.
+// Decides which maps are inverted, from the findings of `check` on green channels and tangent signs.
 
 namespace {
 
-/// Returns per image whether it is used with kept tangents whose signs are, or may be, made for a green that points
-/// down.
+/// Returns per image whether it is used with kept tangents whose signs were, or may have been, computed for green
+/// pointing down.
 std::vector<bool> findCancelled(const Scene& scene, ImageFindings& found, const std::vector<bool>& keeps_tangents,
                                 const CheckOptions& check) {
     std::vector<bool> cancelled(scene.images.size());
@@ -210,7 +210,7 @@ class TextureUses {
 
     Document& document_;
     std::vector<Use> uses_ = {};  ///< uses of each texture; indexed by texture
-    /// Indices of the textures that use an image, by image.
+    /// Indices of the textures that use an image; key: image.
     std::map<std::size_t, std::vector<std::size_t>> textures_of_ = {};
     std::map<std::size_t, std::size_t> own_textures_ = {};  ///< shared texture -> its copy for normal maps
 };
@@ -275,7 +275,7 @@ class Alternatives {
     Document& document_;
     TextureUses uses_;
     MapFlips& flips_;
-    std::map<std::size_t, NormalMapReport*> judged_ = {};  ///< reports of the judged images, by image
+    std::map<std::size_t, NormalMapReport*> judged_ = {};  ///< reports of the judged images; key: image
     std::set<std::size_t> is_settled_ = {};
 };
 

@@ -68,8 +68,8 @@ ConvertedHeights normalMapFromHeights(const Scene& scene, std::size_t material, 
 namespace tspace::gltf {
 
 struct MapFlips {
-    std::map<std::size_t, Bytes> images = {};  ///< image files with green inverted, by image index
-    /// Rewritten image files, with or without inverted green, by image index.
+    std::map<std::size_t, Bytes> images = {};  ///< image files with green inverted; key: image index
+    /// Rewritten image files, with or without inverted green; key: image index.
     std::map<std::size_t, Bytes> mended = {};
     std::vector<NormalMapReport> reports = {};
 };

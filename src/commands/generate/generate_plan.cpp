@@ -188,8 +188,8 @@ std::string poolKey(const Primitive& primitive, std::int32_t uv_set, const UvMat
     std::string key = std::to_string(uv_set) + (makes_tangents ? "" : "without") + (overwrites_normals ? "anew" : "");
     for (const double entry : {matrix.uu, matrix.uv, matrix.vu, matrix.vv})
         key += ',' + std::to_string(std::bit_cast<std::uint64_t>(entry));
-    // A triangle list without indices never needs a split, because each corner has its own vertex. In a pool with other
-    // primitives, they could cause one.
+    // A triangle list without indices never needs a split, because each corner has its own vertex. It gets a pool of
+    // its own, because other primitives of a pool could cause a split.
     key += !primitive.indices && primitive.mode == Mode::triangles ? "n|" : "i|";
     return key + vertexKey(primitive);
 }
@@ -361,7 +361,7 @@ class MeshPieces {
         std::size_t primitive = 0;  ///< index of the other mesh's first primitive at the border
         std::set<std::uint32_t> points = {};
     };
-    /// Returns the other meshes that form one surface with a piece, and the shared points, by piece and mesh.
+    /// Returns the other meshes that form one surface with a piece, and the shared points; key: piece and mesh.
     [[nodiscard]] std::map<std::pair<std::uint32_t, std::uint32_t>, OtherMesh> otherMeshes() const {
         std::map<std::pair<std::uint32_t, std::uint32_t>, OtherMesh> others;
         for (const JoinedPieces::Border& border : joined_->borders()) {

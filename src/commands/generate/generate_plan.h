@@ -76,8 +76,10 @@ bool lacksDeltas(const Primitive& primitive);
 
 /// Normals that are recomputed regardless of the options: one entry per primitive in file order, or empty.
 struct RecomputedNormals {
-    std::vector<bool> base = {};    ///< like GenerateOptions::Normals::overwrite, per primitive
-    std::vector<bool> morphs = {};  ///< like MorphNormals::all, per primitive
+    /// per primitive: recompute its normals (as GenerateOptions::Normals::overwrite does for all)
+    std::vector<bool> base = {};
+    /// per primitive: recompute all normal deltas of its targets (as MorphNormals::all does for all)
+    std::vector<bool> morphs = {};
 };
 
 GeneratePlan planGenerate(const Document& document, std::span<const Primitive> primitives,

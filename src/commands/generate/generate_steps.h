@@ -94,7 +94,7 @@ class MapConversion {
     const GenerateOptions& options_;
     std::vector<std::size_t> numbers_ = {};     ///< primitives that use normal maps
     Scene before_ = {};                         ///< primitives `numbers_` before the change, in this order
-    std::map<std::size_t, Bytes> images_ = {};  ///< files of the normal maps, by image index
+    std::map<std::size_t, Bytes> images_ = {};  ///< files of the normal maps; key: image index
 };
 
 }  // namespace tspace::gltf

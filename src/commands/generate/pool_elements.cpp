@@ -44,7 +44,7 @@ bool isReplaced(const std::string& name, std::ptrdiff_t target, const PoolPlan& 
     return name == "NORMAL" && (frames.normals_generated || is_new);
 }
 
-/// Returns the attributes that are not replaced, including those of morph targets, by accessor.
+/// Returns the attributes that are not replaced, including those of morph targets; key: accessor.
 std::map<std::size_t, CarriedElements> carriedAttributes(std::span<const Primitive> primitives, const PoolPlan& pool,
                                                          const PoolFrames& frames) {
     std::map<std::size_t, CarriedElements> carried;

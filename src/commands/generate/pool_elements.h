@@ -34,8 +34,8 @@ struct PoolElements {
     std::size_t vertex_count = 0;
     bool was_split = false;
     bool normals_generated = false, bitangents_generated = false;
-    /// Other attributes of the vertices after a split, by accessor so that shared accessors stay shared; and the index
-    /// list of each geometry.
+    /// Set after a split: the other attributes of the vertices (key: accessor, so that shared accessors stay shared),
+    /// and the index list of each geometry.
     std::map<std::size_t, CarriedElements> carried = {};
     std::vector<ElementData> indices = {};
     /// The old index of each vertex, and the corners of each geometry. Set after a split if an extension may contain

@@ -246,9 +246,9 @@ bool followsTransform(const PrimitiveIdentity& primitive) {
 
 namespace {
 
-/// Share of corners from which a method is reported as the one that made them.
+/// Minimum share of explained corners from which a method is reported as the origin of the tangents.
 constexpr double kSureShare = 0.95;
-/// Share of corners from which a method is reported as likely.
+/// Minimum share of explained corners from which a method is reported as the likely origin.
 constexpr double kLikelyShare = 0.5;
 /// Minimum share by which another UV set, or another method in a part of the file, must be better to be named.
 constexpr double kClearlyMore = 0.25;

@@ -22,8 +22,8 @@ std::vector<Method> knownMethods();
 /// `a` is less than half that of `b`, beyond rounding. A mean of exactly 0 is closer than any other.
 bool isCloser(const Explanation& a, const Explanation& b);
 
-/// For each UV set that has area, explains the tangents by every method, and by mikktspace on quads if that explains
-/// more. The primitive must have triangles, normals, tangents and a UV set.
+/// For each UV set that has area, explains the tangents with every method, and with mikktspace on quads if that
+/// explains more. The primitive must have triangles, normals, tangents and a UV set.
 Result<std::vector<Explanation>> explainTangents(const ScenePrimitive& primitive, const IdentifyOptions& options);
 
 /// Sorts explanations by score: the number of near corners, where a corner that is near only to the result of another

@@ -69,7 +69,7 @@ std::vector<UvSide> sidesOf(const ScenePrimitive& primitive, const CornerValues<
 }
 
 /// Returns the smallest alpha at which a surface is drawn. In `lit` a blended surface is drawn where its alpha is at
-/// least half of the material's factor: it is then opaque, so that glass is visible and leaves keep their shape.
+/// least half of the material's factor: it is then drawn opaque, so that glass is visible and leaves keep their shape.
 float alphaCutoff(const SurfaceLook& look, RenderShow show) {
     if (show != RenderShow::lit || !look.is_blended) return static_cast<float>(look.alpha_cutoff);
     return std::max(0.5f * look.base_color[3], std::numeric_limits<float>::min());

@@ -38,7 +38,7 @@ struct FrameChoice {
     Execution execution = {};
 };
 
-/// Computes tangents by `method` for a primitive, one per corner, as a glTF file stores them: along the UVs of the
+/// Computes tangents with `method` for a primitive, one per corner, as a glTF file stores them: along the UVs of the
 /// texture that needs them, sanitized. Empty if the primitive has no UVs that the method needs, or no triangles.
 /// `normals`: normals of the primitive. Throws FileError.
 std::vector<Vec4> computeCornerTangents(const ScenePrimitive& primitive, const CornerValues<Vec3>& normals,
@@ -145,7 +145,7 @@ RgbImage sideBySide(const RgbImage& left, const RgbImage& right);
 /// Encodes an 8-bit PNG. Throws FileError (unsupportedFile) if this build cannot write PNG.
 std::vector<std::uint8_t> encodePicture(const RgbImage& image);
 
-// Height maps of OBJ (map_bump) are drawn as the normal maps that generate makes of them.
+// Height maps of OBJ (map_bump) are drawn as the normal maps that generate computes from them.
 
 /// Replaces height maps of OBJ (map_bump) in `drawn` by normal maps, as generate does. Height maps that cannot be
 /// converted are omitted, with a warning. `method`: method of the tangents with which the maps are used. Throws

@@ -97,7 +97,7 @@ bool addFrames(const ScenePrimitive& primitive, std::span<const Vec2> uvs, const
     return true;
 }
 
-/// Returns the scale of the map's x and y. Fails if the primitives differ in it.
+/// Returns the scale of the map's x and y. Fails if the primitives have different scales.
 double scaleOf(std::span<const ChosenPrimitive> chosen) {
     const auto scale_of = [](const ChosenPrimitive& one) { return one.use == nullptr ? 1.0 : one.use->scale; };
     const ChosenPrimitive& first = chosen.front();

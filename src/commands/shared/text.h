@@ -26,7 +26,7 @@ std::string unbroken(std::string_view text);
 /// Wraps text to lines of at most `width` columns, and table rows to as many lines as necessary. Lines break at spaces,
 /// but not inside commands (tspace ... --option) and unbroken() texts, which may therefore exceed `width`. Continuation
 /// lines are indented to the text after a label that is followed by two spaces, otherwise by `hang` columns more than
-/// the first line. All texts of this folder are passed through it before printing.
+/// the first line. All report texts are passed through this function before printing.
 std::string fitText(std::string_view text, std::size_t width, std::size_t hang = 2);
 
 /// Formats a number of bytes, as in "318 B" or "6.8 MB".

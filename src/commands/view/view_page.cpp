@@ -48,7 +48,7 @@ std::string pictureHtml(ModelFile& model) {
 /// Returns the content for readers that execute no script: mail, previews, text browsers.
 std::string stillHtml(const Path& input, ModelFile& model, const PageOrigin& origin) {
     report::CheckOutcome outcome{.input = fileNameOf(input.string())};
-    // Arrays that cannot be read are a finding of the page.
+    // Arrays that cannot be read are reported by a finding on the page.
     outcome.result = atFileBorder([&]() -> Result<CheckReport> { return checkScene(model.scene(true), {}).report; });
     return "<noscript><div class=\"still\">\n" + originHtml(origin) + pictureHtml(model) + findingsHtml(outcome) +
            "</div></noscript>\n";

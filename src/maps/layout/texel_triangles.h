@@ -30,7 +30,7 @@ struct TexelPlace {
 struct TexelTriangleCounts {
     std::uint64_t inside = 0, beside = 0;
     std::uint64_t overlapping = 0;  ///< texels whose center is inside several triangles; the first triangle is used
-    // Triangles that are skipped, by reason:
+    // Numbers of skipped triangles, for each reason:
     std::uint64_t without_area = 0;  ///< triangles that are less than 1/256 texel wide
     std::uint64_t not_finite = 0;
     std::uint64_t too_far = 0;   ///< triangles with UvPlacing::tooFar

@@ -162,7 +162,7 @@ class PointBatch {
     std::array<Tag, kLinesAtOnce> tags_ = {};
 };
 
-/// Calls query(points, tags) for the points that body(together) adds by together.add(point, tag): in batches of
+/// Calls query(points, tags) for the points that body(together) adds with together.add(point, tag): in batches of
 /// kLinesAtOnce, in the order of adding.
 template <class Tag, class QueryPoints, class Body>
 void queryInBatches(const QueryPoints& query, const Body& body) {

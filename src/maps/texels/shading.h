@@ -41,7 +41,7 @@ inline DVec3 fromAxes(const MapAxes& axes, const DVec3& vector) {
     return vector.x * toDouble(axes.x) + vector.y * toDouble(axes.y) + vector.z * toDouble(axes.z);
 }
 
-/// Returns unit(x T + y B + z N), or zero if that has no direction.
+/// Returns unit(x T + y B + z N), or zero if that vector has no direction.
 DVec3 shadedNormal(const ShadingFrame& frame, const DVec3& vector);
 /// Returns the unit vector (x, y, z) for which shadedNormal returns the direction. It uses the inverse of the frame,
 /// not its transpose. Returns zero if the frame is singular or the direction is zero.

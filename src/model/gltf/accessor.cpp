@@ -215,8 +215,8 @@ std::uint32_t widen(const ElementView& elements, std::span<std::uint32_t> number
     return elements.stride == kTight ? widenFrom(kTight) : widenFrom(elements.stride);
 }
 
-/// Decodes a component to float by the formulas of the specification, such as f = max(c / 127, -1); if not normalized,
-/// returns the integer value.
+/// Decodes a component to float with the formulas of the specification, such as f = max(c / 127, -1); if not
+/// normalized, returns the integer value.
 float componentAt(const std::uint8_t* bytes, ComponentType type, bool normalized) {
     switch (type) {
         case ComponentType::i8: {

@@ -74,8 +74,8 @@ std::optional<ElementView> viewElements(const Document& document, const Accessor
 /// data, and for an unknown type.
 Bytes copyElements(const Document& document, const Accessor& accessor);
 
-/// Decode elements as floats: normalized integers by the formulas of the specification, other integers by their value.
-/// Fail with invalidFile at `place` if the accessor has a different number of components.
+/// Decode elements as floats: normalized integers with the formulas of the specification, other integers as their
+/// value. Fail with invalidFile at `place` if the accessor has a different number of components.
 std::vector<Vec2> decodeVec2(const Document& document, const Accessor& accessor, const std::string& place);
 std::vector<Vec3> decodeVec3(const Document& document, const Accessor& accessor, const std::string& place);
 std::vector<Vec4> decodeVec4(const Document& document, const Accessor& accessor, const std::string& place);

@@ -224,8 +224,7 @@ void joinBuffers(Document& document) {
         bin.bytes = BufferBytes(Bytes(kJoinAlignment, 0));  // glTF does not allow empty buffers
     }
     entries[0].erase("uri");
-    // The `fallback` mark of the old buffer (readers of the extension need not load it) would be wrong for the joined
-    // one.
+    // The mark `fallback` allows readers of the extension to skip a buffer. It would be wrong for the joined buffer.
     if (const char* mark = meshoptExtension(entries[0])) {
         entries[0]["extensions"].erase(mark);
         if (entries[0]["extensions"].empty()) entries[0].erase("extensions");

@@ -73,7 +73,7 @@ std::string freeFileName(const Document& document, const OutputTarget& target, c
 /// Returns the buffer files that may be written next to a model; none unless its name ends in .gltf.
 std::vector<std::string> bufferFilesOf(const std::string& path);
 
-/// Writes the model, its own buffers, and copies of the other referenced files if the folder changes.
+/// Writes the model, the buffers that the output owns, and copies of the other referenced files if the folder changes.
 void writeDocument(Document& document, const OutputTarget& target, AtomicOutput& output,
                    std::vector<std::string>& warnings, const Execution& execution);
 

@@ -73,7 +73,7 @@ void Editor::shrinkView(std::size_t index) {
     if (!document_.buffers[old.buffer].own) {
         view["byteLength"] = 1;
         if (!has_own_bytes) return;
-        // The view moves to the output's own buffer, so that an unused view keeps no reference to the old buffer.
+        // The view moves to a buffer that the output owns, so that an unused view keeps no reference to the old buffer.
         vacated_.push_back({old.buffer, old.begin, old.begin + old.byte_count});
         view["buffer"] = targetBuffer();
         view["byteOffset"] = 0;
@@ -142,8 +142,8 @@ std::size_t Editor::targetBuffer() {
     for (std::size_t i = 0; i < document_.buffers.size(); ++i) {
         if (document_.buffers[i].own) target_buffer_ = i;
     }
-    // Data may be appended to any own buffer: existing views keep their ranges, and so does the data of compressed
-    // views.
+    // Data may be appended to any buffer that the output owns: existing views keep their ranges, and so does the data
+    // of compressed views.
     if (target_buffer_) return *target_buffer_;
     Json& buffers = editableRootArray(document_, "buffers");
     target_buffer_ = buffers.size();

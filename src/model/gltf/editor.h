@@ -34,8 +34,8 @@ class Editor {
     /// a single zero, and an unused view entry with one byte.
     void release(std::size_t accessor);
 
-    /// Returns whether the accessor's elements may be overwritten in place: it is not sparse, is in an own buffer, and
-    /// shares no bytes with another accessor, image or extension.
+    /// Returns whether the accessor's elements may be overwritten in place: it is not sparse, is in a buffer that the
+    /// output owns, and shares no bytes with another accessor, image or extension.
     [[nodiscard]] bool canOverwrite(const Accessor& accessor) const;
     /// Overwrites elements, given in the accessor's format. Existing bounds of floats are updated; bounds of other
     /// types are removed.

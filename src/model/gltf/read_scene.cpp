@@ -117,7 +117,7 @@ class Nodes {
         return result;
     }
 
-    /// Returns `roots` and all nodes below them, each once. Computes the world transform of each node, by the first
+    /// Returns `roots` and all nodes below them, each once. Computes the world transform of each node, along the first
     /// path that reaches it in any traversal.
     std::vector<std::size_t> below(const std::vector<std::size_t>& roots) {
         ++walk_;
@@ -159,8 +159,8 @@ Affine readFirstBind(const Document& document, const Json& skin, const std::stri
     return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
 }
 
-/// Returns the transform of a mesh by the first joint of the node's skin; nullopt if the node has no skin or the skin
-/// has no joints.
+/// Returns the transform with which the first joint of the node's skin places a mesh; nullopt if the node has no skin
+/// or the skin has no joints.
 std::optional<Affine> boundPlace(const Document& document, const Nodes& nodes, std::size_t node) {
     const Json& skins = rootArray(document, "skins");
     const auto skin = readIndex(nodes[node], "skin", join("/nodes", node), skins.size(), "skin");

@@ -67,8 +67,8 @@ Extent solidExtent(const Document& document, std::size_t accessor, std::size_t v
     return {accessor, view.buffer, view.begin + offset, view.begin + offset + byte_count, 0, 0};
 }
 
-/// Returns the ranges to remove from one buffer: parts of `vacated` that no live extent uses, shrunk to aligned bounds.
-/// They are sorted and disjoint.
+/// Returns the ranges to remove from one buffer: parts of `vacated` that no extent in `live` uses, shrunk to aligned
+/// bounds. They are sorted and disjoint.
 std::vector<ByteRange> cutsOf(std::size_t buffer, std::span<const ByteRange> vacated, std::span<const Extent> live) {
     std::vector<ByteRange> holes, cuts;
     for (const ByteRange& range : vacated) {
@@ -88,7 +88,7 @@ std::vector<ByteRange> cutsOf(std::size_t buffer, std::span<const ByteRange> vac
     };
     for (const ByteRange& hole : holes) {
         std::size_t at = std::max(hole.begin, done);
-        // For blocks that start before this hole, only the largest end matters.
+        // `reach` is the largest end of the live ranges that start at or before `at`.
         while (at < hole.end) {
             while (block < blocks.size() && blocks[block].begin <= at) reach = std::max(reach, blocks[block++].end);
             if (reach > at) {

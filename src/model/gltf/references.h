@@ -42,15 +42,15 @@ std::vector<Extent> collectExtents(const Document& document);
 /// Returns whether both extents share a byte. Interleaved elements with the same stride are distinguished.
 bool overlaps(const Extent& a, const Extent& b);
 
-/// Cuts unused bytes in the ranges of `vacated` from the output's own buffers and from decoded buffers, and adjusts all
-/// later offsets.
+/// Cuts unused bytes in the ranges of `vacated` from the buffers that the output owns (Buffer::own) and from decoded
+/// buffers, and adjusts all later offsets.
 void cutVacated(Document& document, std::span<const ByteRange> vacated);
 
-/// Removes buffers that neither a view nor a compression extension references, except the output's own. Renumbers the
-/// indices in views and extensions.
+/// Removes buffers that neither a view nor a compression extension references, except those that the output owns.
+/// Renumbers the indices in views and extensions.
 void removeUnreferencedBuffers(Document& document);
 
-/// Removes buffers of the output (not of the input files) that became empty: glTF does not allow buffers of length 0.
+/// Removes buffers that the output owns and that became empty: glTF does not allow buffers of length 0.
 void removeEmptiedBuffers(Document& document);
 
 }  // namespace tspace::gltf

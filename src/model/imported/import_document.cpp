@@ -89,7 +89,7 @@ ImportLimits limitsFor(std::uint64_t size, const FileOptions& options) {
     return limits;
 }
 
-/// Returns a reason, recognized by the first bytes of the file, why the importer may have failed; empty if there is
+/// Returns a reason, recognized from the first bytes of the file, why the importer may have failed; empty if there is
 /// none.
 std::string encodingReason(const Path& path) {
     std::string text(8, '\0');

@@ -151,7 +151,7 @@ class ImageBuilder {
     DocumentBuilder& builder_;
     std::vector<std::string>& sources_;
     std::vector<std::string>& warnings_;
-    /// texture by path and by whether green is inverted
+    /// index of each texture; key: path, and whether green is inverted
     std::map<std::pair<std::string, bool>, int> textures_by_file_ = {};
 };
 
