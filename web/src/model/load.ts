@@ -52,7 +52,8 @@ function managerFor(model: ModelFiles, urls: string[]): LoadingManager {
 
 function matrixOf(texture: Texture | null): Matrix3 | null {
   if (!texture) return null;
-  texture.updateMatrix();
+  // The loader sets the matrix itself where the order of glTF's rotation and scale differs from that of three.js.
+  if (texture.matrixAutoUpdate) texture.updateMatrix();
   return texture.matrix.equals(new Matrix3()) ? null : texture.matrix.clone();
 }
 
