@@ -36,7 +36,9 @@ export function choice<T extends string>(label: string, options: readonly (reado
     inputs.set(value, input);
     group.append(el("label", {}, input, el("span", {}, text)));
   }
-  return { element: group, set: (value: T) => void (inputs.get(value)!.checked = true) };
+  /** Null: nothing is chosen. */
+  const set = (value: T | null): void => inputs.forEach((input, own) => (input.checked = own === value));
+  return { element: group, set };
 }
 let choices = 0;
 
@@ -61,6 +63,18 @@ export function slider(label: string, { min, max, step, value, unit }: { min: nu
     changed(Number(input.value));
   });
   return el("label", { class: "select slider" }, el("span", {}, label), input, text);
+}
+
+/** Disables buttons until work has ended. Disabling takes the focus from a button, which gets it back afterwards. */
+export async function disabledDuring(buttons: readonly HTMLButtonElement[], work: () => Promise<void>): Promise<void> {
+  const focused = buttons.find((button) => button === document.activeElement);
+  for (const button of buttons) button.disabled = true;
+  try {
+    await work();
+  } finally {
+    for (const button of buttons) button.disabled = false;
+    if (document.activeElement === document.body) focused?.focus();
+  }
 }
 
 /** Formats a number as `1,234` regardless of the browser's language, because reports are in English. */

@@ -50,16 +50,21 @@ function sceneOf({ below, level, above, lamps }: (typeof kinds)[Surroundings]): 
   return scene;
 }
 
-/** Returns a panorama of an HDR file (Radiance), blurred for each roughness level. Throws if the file is invalid. */
-export function environmentOf(renderer: WebGLRenderer, file: ArrayBuffer): Texture {
+/** Reads the panorama of an HDR file (Radiance). Throws if the file is invalid. */
+export function panoramaOf(file: ArrayBuffer): DataTexture {
   const { data, width, height, type } = new HDRLoader().parse(file) as { data: Uint16Array<ArrayBuffer>; width: number; height: number; type: TextureDataType };
+  if (!(width > 0 && height > 0) || data.length !== 4 * width * height) throw new Error("the file is shorter than its header declares");
   const panorama = new DataTexture(data, width, height, RGBAFormat, type, EquirectangularReflectionMapping);
   panorama.minFilter = panorama.magFilter = LinearFilter;
   panorama.flipY = true;
   panorama.needsUpdate = true;
+  return panorama;
+}
+
+/** Returns a panorama blurred for each roughness level. */
+export function environmentOf(renderer: WebGLRenderer, panorama: DataTexture): Texture {
   const generator = new PMREMGenerator(renderer), { texture } = generator.fromEquirectangular(panorama);
   generator.dispose();
-  panorama.dispose();
   return texture;
 }
 

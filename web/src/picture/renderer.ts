@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rendering on the GPU: the scene, another file to the right of the split line, the lamp, its shadows, and the
 // environment.
-import { DirectionalLight, NeutralToneMapping, Scene as ThreeScene, Vector2, WebGLRenderer, type PerspectiveCamera } from "three";
+import { DirectionalLight, NeutralToneMapping, Scene as ThreeScene, Vector2, WebGLRenderer, type DataTexture, type PerspectiveCamera } from "three";
 import { environmentFor, environmentOf, type Surroundings } from "./environment.js";
 import type { Readable } from "./picking.js";
 import { Scene } from "./scene.js";
@@ -56,7 +56,7 @@ export class Picture {
   #world = new ThreeScene();
   #lamp = new DirectionalLight(0xffffff, 2);
   #hasDrawn = false;
-  #panorama: ArrayBuffer | null = null;
+  #panorama: DataTexture | null = null;
 
   constructor(canvas: HTMLCanvasElement) {
     this.renderer = rendererFor(canvas);
@@ -88,9 +88,10 @@ export class Picture {
     }
   }
 
-  /** Sets an environment provided by the user: a panorama in an HDR file. Null: generated environments. */
-  setPanorama(file: ArrayBuffer | null): void {
-    this.#panorama = file;
+  /** Sets an environment provided by the user. Null: generated environments. */
+  setPanorama(panorama: DataTexture | null): void {
+    this.#panorama?.dispose();
+    this.#panorama = panorama;
     this.forgetEnvironment();
   }
 

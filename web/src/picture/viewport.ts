@@ -7,7 +7,7 @@ import { moveByKey } from "./keys.js";
 import { drawUvMap, pickTriangle } from "./picking.js";
 import { halfOf, hasSplit, Picture, type Settings } from "./renderer.js";
 import { Scene } from "./scene.js";
-import type { Surroundings } from "./environment.js";
+import { panoramaOf, type Surroundings } from "./environment.js";
 import type { Look, PictureValues } from "./shader.js";
 import type { MapCorners } from "../worker/protocol.js";
 
@@ -96,9 +96,9 @@ export class Viewport {
     this.ask();
   }
 
-  /** Sets an environment provided by the user, as an HDR file (Radiance). */
+  /** Sets an environment provided by the user, as an HDR file (Radiance). Throws if the file is invalid. */
   setPanorama(file: ArrayBuffer): void {
-    this.#picture.setPanorama(file);
+    this.#picture.setPanorama(panoramaOf(file));
     this.ask();
   }
 

@@ -20,6 +20,11 @@ export class LookView {
   #choice: HTMLSelectElement;
 
   #variants = el("div", { hidden: true });
+  /** Nothing is chosen while a panorama of the user is shown. */
+  #surroundings = choice("Surroundings", surroundings.map((name) => [name, name] as const), "room", (name) => {
+    this.#viewport.setSurroundings(name);
+    this.#sayOfPanorama("");
+  });
   #panoramaSaid = el("p", { class: "quiet", role: "status" });
 
   constructor(private stage: Stage, private changed: (right: Right) => void, private vary: (variant: number) => void) {
@@ -47,7 +52,6 @@ export class LookView {
       this.#isRight = value === "right";
       this.showLines();
     });
-    const around = choice("Surroundings", surroundings.map((name) => [name, name] as const), "room", (name) => viewport.setSurroundings(name));
     const panorama = filePicker("Open .hdr…", { accept: ".hdr", "aria-label": "Panorama as an HDR file" }, ([file]) => void this.#usePanorama(file));
     const turn = slider("Rotation", { min: -180, max: 180, step: 5, value: 0, unit: "°" }, (value) => this.#set({ turn: value }));
     const exposure = slider("Exposure", { min: -3, max: 3, step: 0.25, value: 0, unit: " stops" }, (value) => this.#set({ stops: value }));
@@ -61,15 +65,24 @@ export class LookView {
     this.element.append(
       el("div", { class: "rows" }, this.#variants, frames.element, this.#figures, map.element,
         el("div", { class: "row" }, wire.element, colors.element, shadows.element),
-        el("div", { class: "row lines" }, ...axes), el("label", { class: "select slider" }, el("span", {}, "Length of the lines"), length), whose.element, around.element, el("div", { class: "select" }, el("span", {}, "Your own panorama"), panorama), this.#panoramaSaid, turn, exposure, ground.element));
+        el("div", { class: "row lines" }, ...axes), el("label", { class: "select slider" }, el("span", {}, "Length of the lines"), length), whose.element, this.#surroundings.element, el("div", { class: "select" }, el("span", {}, "Your own panorama"), panorama), this.#panoramaSaid, turn, exposure, ground.element));
     this.offerFile(null);
   }
 
   async #usePanorama(file: File): Promise<void> {
     const bytes = await file.arrayBuffer(), head = new TextDecoder().decode(bytes.slice(0, 11));
-    const isHdr = head.startsWith("#?RADIANCE") || head.startsWith("#?RGBE");
-    this.#panoramaSaid.textContent = isHdr ? `Shown: ${file.name}` : `${file.name} is not an HDR panorama (Radiance).`;
-    if (isHdr) this.#viewport.setPanorama(bytes);
+    if (!head.startsWith("#?RADIANCE") && !head.startsWith("#?RGBE")) return this.#sayOfPanorama(`${file.name} is not an HDR panorama (Radiance).`);
+    try {
+      this.#viewport.setPanorama(bytes);
+      this.#surroundings.set(null);
+      this.#sayOfPanorama(`Shown: ${file.name}`);
+    } catch (error) {
+      this.#sayOfPanorama(`${file.name} cannot be read: ${(error instanceof Error ? error.message : String(error)).replace(/^THREE\.\w+: /, "")}.`);
+    }
+  }
+
+  #sayOfPanorama(sentence: string): void {
+    this.#panoramaSaid.textContent = sentence;
   }
 
   /** Offers a choice of the file's variants, if any. `chosen`: index of the current variant, or -1. */
