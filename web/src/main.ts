@@ -159,8 +159,9 @@ function showName(model: ModelFiles | null, before: ModelFiles | null): void {
   fix.wait();
   texel.reset();
   replaceChildren(title, model ? model.name : "");
-  back.hidden = before === null;
   close.hidden = model === null;
+  if (before === null && document.activeElement === back) close.focus(); // the button disappears
+  back.hidden = before === null;
   back.textContent = before ? `Back to ${before.name}` : "";
   document.title = model ? `${model.name} – tspace view` : "tspace view";
   gallery.mark(model?.name ?? null);
@@ -172,6 +173,7 @@ function closeModel(): void {
   pile = new Pile();
   others.hidden = true;
   app.close();
+  header.querySelector<HTMLElement>(".open button")?.focus();
 }
 
 let pile = new Pile();

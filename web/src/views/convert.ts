@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Converts a lone normal map with one click: green up or down, three channels or two, PNG, KTX2 or DDS.
-import { count, el, replaceChildren } from "../dom.js";
+import { count, disabledDuring, el, replaceChildren } from "../dom.js";
 import { mapReading } from "./advice.js";
 import type { ModelFiles } from "../files.js";
 import type { ConvertedMap, MapReading, MapTarget } from "../worker/protocol.js";
@@ -45,7 +45,7 @@ export class ConvertView {
     if (!model || !check) return;
     const found = mapReading(check), isKnown = check.image?.green === "up" || check.image?.green === "down";
     if (!found) return replaceChildren(this.#rows, el("p", { class: "quiet" }, "This image is not a normal map in tangent space, or converting it needs a mesh. The finding names the command that converts it."));
-    const buttons = targets.map((target) => el("button", { type: "button", class: "target", onclick: () => void this.#make(model, found.reading, target) }, el("strong", {}, target.name), el("span", {}, target.detail)));
+    const buttons: HTMLButtonElement[] = targets.map((target) => el("button", { type: "button", class: "target", onclick: () => void disabledDuring(buttons, () => this.#make(model, found.reading, target)) }, el("strong", {}, target.name), el("span", {}, target.detail)));
     replaceChildren(this.#rows, !found.isSure && el("p", { class: "quiet" }, "The relief fits two interpretations of the map. The finding names both; these files use the first one."), !isKnown && el("p", { class: "quiet" }, "The relief does not show in which direction green points, so the map is read with green up."), el("div", { class: "targets" }, ...buttons), this.#said);
   }
 
@@ -55,8 +55,7 @@ export class ConvertView {
   }
 
   async #make(model: ModelFiles, reading: MapReading, { suffix, green, to }: Target): Promise<void> {
-    const buttons = this.#rows.querySelectorAll("button"), flipGreen = (reading.flipGreen ?? false) !== (green === "down");
-    for (const button of buttons) button.disabled = true;
+    const flipGreen = (reading.flipGreen ?? false) !== (green === "down");
     this.#said.textContent = "Converting…";
     try {
       const { bytes, width, height, format, notes } = await this.convert(model, { ...reading, flipGreen }, to);
@@ -68,8 +67,6 @@ export class ConvertView {
       link.click();
     } catch (error) {
       this.#said.textContent = `The map cannot be converted: ${error instanceof Error ? error.message : String(error)}`;
-    } finally {
-      for (const button of buttons) button.disabled = false;
     }
   }
 }

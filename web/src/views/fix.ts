@@ -9,10 +9,12 @@ export const sureText = ({ confidence }: Finding): string => (confidence < 1 ? `
 
 export class FixView {
   /** The visible effect, above the picture. */
-  readonly caption = el("p", { class: "seen", role: "status" });
+  readonly caption = el("p", { class: "seen", role: "status", tabindex: "-1" });
   /** The fix button, over the picture and next to the split line. */
   readonly element = el("div", { class: "fix", hidden: true });
   #button = el("button", { type: "button", class: "main large" });
+  /** The button had the focus when it was pressed; what replaces it receives the focus. */
+  #hadFocus = false;
 
   constructor(private fix: () => void) {
     this.#button.addEventListener("click", () => this.fix());
@@ -32,7 +34,7 @@ export class FixView {
     const others = kinds > 1 ? ` And ${plural(kinds - 1, "other fault")}.` : "";
     replaceChildren(this.caption, worst && el("strong", {}, worst.effect), worst ? `${others} ${sureText(worst)}` : `No errors were found${report.counts.note > 0 ? `; ${plural(report.counts.note, "note")}` : ""}.`);
     this.element.hidden = plan === null;
-    if (!plan) return;
+    if (!plan) return this.#passFocus(this.caption);
     const left = plan.left > 0 ? ` ${plural(plan.left, "fault")} must be fixed in the program that made the model.` : "";
     this.#button.disabled = false;
     replaceChildren(this.#button, el("strong", {}, "Fix it"), el("span", {}, `${plan.steps.join(", ")}${left === "" ? "" : "."}${left}`), el("span", {}, "Your file is not changed; you download the result as a new file."));
@@ -40,6 +42,7 @@ export class FixView {
   }
 
   working(): void {
+    this.#hadFocus = document.activeElement === this.#button;
     this.#button.disabled = true;
     replaceChildren(this.#button, el("strong", {}, "Fixing…"));
   }
@@ -48,6 +51,7 @@ export class FixView {
     this.caption.dataset.severity = "error";
     replaceChildren(this.caption, el("strong", {}, `The fix failed: ${message}`));
     this.element.hidden = true;
+    this.#passFocus(this.caption);
   }
 
   /** Compares two versions by the counts of `check`. */
@@ -66,6 +70,13 @@ export class FixView {
     this.element.hidden = false;
     this.#button.disabled = false;
     if (rest) replaceChildren(this.#button, el("strong", {}, "Fix the rest"), el("span", {}, rest.steps.join(", ")));
-    replaceChildren(this.element, rest && this.#button, el("a", { class: "button large", href: url, download: name }, el("strong", {}, "Download"), el("span", {}, name)));
+    const download = el("a", { class: "button large", href: url, download: name }, el("strong", {}, "Download"), el("span", {}, name));
+    replaceChildren(this.element, rest && this.#button, download);
+    this.#passFocus(rest ? this.#button : download);
+  }
+
+  #passFocus(to: HTMLElement): void {
+    if (this.#hadFocus) to.focus();
+    this.#hadFocus = false;
   }
 }

@@ -2,7 +2,7 @@
 // Fixes the model like `tspace generate`: options, the equivalent command line, the changes, and the file. Each model
 // starts with the options that its own findings require.
 import { folderOf, zipOf } from "../model/folder.js";
-import { checkbox, choice, count, el, plural, replaceChildren, select } from "../dom.js";
+import { checkbox, choice, count, disabledDuring, el, plural, replaceChildren, select } from "../dom.js";
 import { fixedMapName, isMapName } from "../model/lone_map.js";
 import type { ModelFiles } from "../files.js";
 import type { CheckReport, Finding, GeneratedPrimitive, GenerateReport, JudgedMap } from "tspace/gltf";
@@ -212,7 +212,11 @@ export class FixOptionsView {
   }
 
   async #fix(): Promise<void> {
-    this.#button.disabled = true;
+    await disabledDuring([this.#button], () => this.#makeFixed());
+    this.#button.disabled = this.#model === null;
+  }
+
+  async #makeFixed(): Promise<void> {
     this.#forgetResult();
     replaceChildren(this.#result, el("p", { class: "quiet" }, "Working…"));
     this.told.started();
@@ -225,8 +229,6 @@ export class FixOptionsView {
       const message = error instanceof Error ? error.message : String(error);
       replaceChildren(this.#result, el("p", { class: "failure", role: "alert" }, message));
       this.told.failed(message);
-    } finally {
-      this.#button.disabled = this.#model === null;
     }
   }
 

@@ -4,7 +4,7 @@ import { el } from "../dom.js";
 
 export class Progress {
   readonly element: HTMLElement;
-  #text = el("span", { role: "status" });
+  #text = el("span", { role: "status", tabindex: "-1" });
   #bar = el("progress", { max: "1", value: "0", "aria-label": "Progress" });
   #stop = el("button", { type: "button", class: "stop" }, "Stop");
 
@@ -24,6 +24,7 @@ export class Progress {
   done(text: string): void {
     this.#text.textContent = text;
     this.element.classList.remove("busy");
+    if (document.activeElement === this.#stop) this.#text.focus(); // the button disappears
     this.#bar.hidden = this.#stop.hidden = true;
   }
 }
