@@ -39,7 +39,7 @@ test("a DirectX PNG is detected, shown on a lit surface, and inverted by one cli
     const path = await ringMap(tab, folder);
     assert.equal(await openMap(tab, path), "ready");
     assert.equal(await tab.evaluate(() => document.title), "bricks.png – tspace view");
-    assert.match(await looked(tab), /^256 x 256 texels: a normal map in tangent space.*Green points down, as in DirectX \(\d+ % sure/);
+    assert.match(await looked(tab), /^256 x 256 texels: a normal map in tangent space.*Green points down, as in DirectX \(\d+ % confidence/);
     assert.match(await tab.locator(".seen").textContent(), /^Bumps look like dents/);
     assert.match(await tab.locator(".fix button").textContent(), /invert green in 1 normal map/);
     const before = await pixelsOf(tab);
