@@ -2,11 +2,12 @@
 // Compares the picture with plain three.js: the same model, environment, light and pose; and measures how many pixels a fault changes.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
+import { loadavg } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { Glb } from "./glb.mjs";
-import { difference, drawn, isLong, named, noShared, openBytes, openFile, overGray, ownPicture, shared, withPage } from "./support.mjs";
+import { difference, drawn, isLong, missing, named, noShared, openBytes, openFile, overGray, ownPicture, page, shared, withPage } from "./support.mjs";
 
 const plain = process.env.TSPACE_PLAIN;
 // Models with KTX2 textures use PNGs with the same content here, because plain three.js does not read KTX2.
@@ -79,4 +80,19 @@ test("on a cat with inverted signs a quarter of the pixels differ from the corre
     t.diagnostic(`of ${covered} pixels ${steps.map((step, k) => `${(100 * share(k)).toFixed(1)} % differ by more than ${step}`).join(", ")} of 255`);
     assert.ok(share(steps.indexOf(4)) >= 0.25, "by more than 4 of 255");
   }, { allowMessages: true });
+});
+
+const median = (numbers) => [...numbers].sort((a, b) => a - b)[Math.floor(numbers.length / 2)];
+
+test("the first picture of the page appears at most four times as late as that of three.js alone", { skip: missing || (!plain && "the page of three.js alone is not built"), timeout: 600_000 }, async (t) => {
+  const urls = { page: pathToFileURL(page).href, plain: `${pathToFileURL(plain).href}#crate` }, times = { page: [], plain: [] };
+  // A new browser for each, in turns.
+  for (let i = 0; i < (isLong ? 11 : 5); ++i) {
+    for (const [name, url] of Object.entries(urls)) {
+      const ms = await withPage((tab) => tab.waitForFunction(() => performance.getEntriesByName("first picture")[0]?.startTime).then((mark) => mark.jsonValue()), { url, allowMessages: true });
+      times[name].push(Math.round(ms));
+    }
+  }
+  t.diagnostic(`page ${times.page.join(", ")} ms, three.js alone ${times.plain.join(", ")} ms; medians ${median(times.page)} and ${median(times.plain)} ms; load of the machine ${loadavg()[0].toFixed(1)}`);
+  assert.ok(median(times.page) <= 4 * median(times.plain));
 });
