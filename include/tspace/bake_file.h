@@ -58,8 +58,8 @@ struct BakeFileOptions {
     /// Options for computing missing tangents and normals of the low poly. The defaults are those of GenerateOptions.
     TangentOptions tangents{.convention = conventions::gltf};
     NormalOptions normals{.weighting = NormalWeighting::flat};
-    /// Denoising of high polys with noisy positions, such as scans, as in NormalOptions::denoise. Normals of noisy
-    /// meshes are recomputed with `best`, without hard edges.
+    /// Denoising of high polys with noisy positions, such as scans; same values as NormalOptions::denoise. Normals of
+    /// noisy meshes are recomputed with `best`, without hard edges.
     float denoise = 0;
     FileOptions file = {};
     std::string cage = {};  ///< model with the low poly's triangles, moved to the start of the rays; empty: none
@@ -115,7 +115,7 @@ struct BakedLayerFile {
     std::string path = {};
     unsigned bits = 8;     ///< bits per channel
     bool is_srgb = false;  ///< true: its values are sRGB-encoded
-    /// Values of black and white for each channel, in model units.
+    /// Quantities that black and white represent, per channel, in model units.
     std::array<double, 3> least = {0, 0, 0}, most = {1, 1, 1};
     std::uint64_t id_count = 0;     ///< number of IDs in the high poly, for MapLayer::id
     std::vector<BakedId> ids = {};  ///< meaning of the first 256 IDs
@@ -207,7 +207,7 @@ struct MapErrorFileReport {
 
 /// Measures a normal map of a low poly against its high poly, and finds the interpretation that explains it best: green
 /// up or down, frames of the file or of a method, on triangles or quads, bitangent per pixel or per vertex, two or
-/// three channels, tangent or object space; and the rays it was baked with. Errors as bakeFile; also those of image
+/// three channels, tangent or object space; and the rays it was baked with. Errors: those of bakeFile and of image
 /// readers.
 Result<MapErrorFileReport> mapErrorFile(const std::string& map, const std::string& low, const std::string& high,
                                         const MapErrorFileOptions& options = {});
@@ -227,19 +227,21 @@ BakeFileOptions allMaps();
 
 struct FinishOptions {
     FinishNormals normals = FinishNormals::missing;
-    /// Crease angle and denoising of computed normals, as in NormalOptions; their weighting is `best`. Computed normals
-    /// of the low poly have no hard edges, which would require UV seams.
+    /// Crease angle and denoising of computed normals, with the values of NormalOptions; their weighting is `best`.
+    /// Computed normals of the low poly have no hard edges, which would require UV seams.
     float crease_angle_deg = NormalOptions::crease_auto;
     float denoise = NormalOptions::denoise_auto;
-    /// Weld distance for computing normals and flipping triangles, as in NormalOptions::weld_distance.
+    /// Weld distance for computing normals and flipping triangles. Same meaning as NormalOptions::weld_distance.
     float weld_distance = NormalOptions::weld_auto;
     /// true: flip triangles that are wound the wrong way, as GenerateOptions::mend_winding does. A mesh keeps its
     /// winding if checkFile would otherwise find more normals against their triangles than before: its normals match
     /// its triangles, and it renders correctly.
     bool mend_winding = true;
-    bool images = true;  ///< like CheckOptions::images and GenerateOptions::Maps::read; does not affect baking
-    /// Model with UVs that replaces the input, which becomes its high poly: it is written to the output with all maps.
-    /// Empty: the input is written to the output.
+    /// read the pixels of normal maps, to check and repair (CheckOptions::images, GenerateOptions::Maps::read); does
+    /// not affect baking
+    bool images = true;
+    /// Low poly with UVs: all maps are baked onto it from the input, and it is written to the output with them. Empty:
+    /// the input itself is written to the output.
     std::string low = {};
     /// Options for baking maps. The call sets its models, `out_mesh`, file, execution and progress.
     BakeFileOptions bake = allMaps();

@@ -22,9 +22,9 @@ namespace tspace {
 
 /// Importance of a finding.
 enum class Severity : std::uint32_t {
-    note = 0,     ///< worth knowing, although it renders correctly
-    warning = 1,  ///< it renders incorrectly in some renderers, in a small area, or only possibly
-    error = 2,    ///< it certainly renders incorrectly
+    note = 0,     ///< worth knowing, although the model renders correctly
+    warning = 1,  ///< the model renders incorrectly in some renderers, in a small area, or only possibly
+    error = 2,    ///< the model certainly renders incorrectly
 };
 /// Returns "note", "warning" or "error".
 const char* severityName(Severity severity);
@@ -60,7 +60,7 @@ enum class FindingCode : std::uint32_t {
     texturesDisagree = 26,     ///< two textures of one primitive need different frames
     greenFlipped = 27,         ///< a normal map whose green points down (DirectX)
     normalMapUnreadable = 28,  ///< the image could not be read
-    fileRemark = 29,           ///< a warning of the reader: data that were ignored or treated as missing
+    fileRemark = 29,           ///< a warning of the file reader: data that were ignored or treated as missing
     greenMixed = 30,           ///< a normal map whose green points down in one part and up in another
     /// An attribute of packed frames does not match the format that its name states (docs/concepts/pack.md).
     packedFramesUnreadable = 31,
@@ -171,7 +171,8 @@ struct CheckOptions {
     /// Faces whose tangents are the reference. automatic: triangles, or quads if the tangents clearly fit quads better;
     /// quads: pairs of triangles that look like a quad. Blender computes tangents on quads.
     Faces faces = Faces::automatic;
-    /// Weld distance of positions for winding, borders of primitives and noise: as NormalOptions::weld_distance.
+    /// Weld distance of positions for winding, borders of primitives and noise. Same meaning as
+    /// NormalOptions::weld_distance.
     float weld_distance = NormalOptions::weld_auto;
     /// Called on the calling thread: for each primitive if it is the only thread, otherwise before and after all work.
     Progress progress = {};
@@ -226,7 +227,7 @@ struct CheckReport {
 /// Reads a model and reports faults of its frames; or reads an image (recognized by its extension, or by the first
 /// bytes of file.content) and reports its faults as a normal map, with the same tests but without a mesh. Near-linear
 /// in the size of the model. Memory: the model as floats, and about 150 bytes per triangle of the primitives in
-/// progress. Thread-safe; the report does not depend on the number of threads. Errors as generateFile; also
+/// progress. Thread-safe; the report does not depend on the number of threads. Errors: those of generateFile, and
 /// invalidOption (an angle or share that is negative or not finite).
 Result<CheckReport> checkFile(const std::string& input, const CheckOptions& options = {});
 

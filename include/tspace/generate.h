@@ -25,7 +25,7 @@ namespace tspace {
 /// Treatment of existing tangents that are needed.
 enum class ExistingTangents : std::uint32_t {
     keep = 0,     ///< keep existing tangents, and add missing ones
-    replace = 1,  ///< recompute them
+    replace = 1,  ///< recompute existing tangents
     repair = 2,   ///< repair the tangents that `check` reports as errors, vertex by vertex; keep all others
 };
 
@@ -119,8 +119,8 @@ struct GenerateOptions {
         /// _BITANGENT (VEC3, in Storage::format). Its differences also cause splits. Morph targets get no deltas for
         /// it.
         bool bitangents = false;
-        /// Repair tangents that are not finite, zero, not unit, parallel to N, or of mixed sign inside a face.
-        /// false: write the unmodified results of the method.
+        /// Repair tangents that contain NaN or infinity, are zero, do not have unit length, are parallel to N, or have
+        /// different signs within a face. false: write the unmodified results of the method.
         bool sanitize = true;
         SanitizeOptions sanitize_options = {};  ///< options of the repair, with `sanitize`
     };
@@ -293,7 +293,7 @@ struct ConvertedMapReport {
 
 struct GenerateReport {
     std::vector<PrimitiveReport> primitives = {};  ///< one entry per primitive, in file order
-    /// with flip_green or Maps::mend; also height maps of OBJ files
+    /// normal maps of the model, with flip_green or Maps::mend; also height maps of OBJ files
     std::vector<NormalMapReport> normal_maps = {};
     std::vector<ConvertedMapReport> converted_maps = {};  ///< maps whose primitives got tangents (Maps::convert)
     std::vector<MendedWindingReport> windings = {};       ///< with mend_winding, for each mesh with triangles

@@ -72,9 +72,10 @@ struct IndexedFramesOptions {
     /// Options for computed normals. Their convention is ignored; the convention of `tangents` is used.
     NormalOptions normals = {};
     bool make_normals = false;  ///< recompute existing normals; missing normals are always computed
-    /// Repair tangents that are not finite, zero, not unit, parallel to N, or of mixed sign inside a face.
+    /// Repair tangents that contain NaN or infinity, are zero, do not have unit length, are parallel to N, or have
+    /// different signs within a face.
     bool sanitize = true;
-    bool orthogonalize_all = false;  ///< like SanitizeOptions::orthogonalize_all
+    bool orthogonalize_all = false;  ///< same meaning as SanitizeOptions::orthogonalize_all
     /// Further attributes, one entry per corner, that must not be shared: corners with different values get separate
     /// vertices. Only a mesh without indices needs them, for vertex attributes other than position, normal and UV.
     std::span<const CornerAttribute> keep_apart = {};

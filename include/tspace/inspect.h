@@ -89,10 +89,11 @@ struct Inspection {
     std::vector<std::string> variants = {};      ///< names of KHR_materials_variants
     std::vector<PrimitiveInfo> primitives = {};  ///< one entry per primitive, in file order
     std::vector<std::string> warnings = {};      ///< one sentence each, about the file as a whole
-    double coordinate_offset[3] = {0, 0, 0};     ///< offset that generate would subtract, as in GenerateReport
+    /// offset that generate would subtract (GenerateReport::coordinate_offset)
+    double coordinate_offset[3] = {0, 0, 0};
 };
 
-/// Reads a model and returns its properties. Errors as generateFile.
+/// Reads a model and returns its properties. Errors: those of generateFile.
 Result<Inspection> inspectFile(const std::string& input, const FileOptions& options = {});
 
 // Identification of the method and the convention of a model's tangents: every known method is run on the file's own

@@ -124,7 +124,7 @@ struct LowPoly {
     StridedSpan<const Vec3> normals = {};   ///< stored normals: used for rays and for shading
     StridedSpan<const Vec4> tangents = {};  ///< empty with MapSpace::object
     StridedSpan<const Vec2> uvs = {};       ///< v increases downwards
-    StridedSpan<const Vec3> cage = {};      ///< start of the rays; empty: as in RayOptions
+    StridedSpan<const Vec3> cage = {};      ///< start of the rays; empty: determined by RayOptions
     /// One per triangle: its rays hit only triangles of the high poly with the same number, or any if either number is
     /// kEveryGroup. Empty, in either mesh: no restriction.
     std::span<const std::uint32_t> groups = {};
@@ -216,7 +216,8 @@ struct MapCandidate {
     MapAxes axes = {};  ///< axes of the map, with MapSpace::object
 };
 
-/// Computes measureMap for each of several interpretations, at the same points, without `heat`. Errors as measureMap.
+/// Computes measureMap for each of several interpretations, at the same points, without `heat`. Errors: those of
+/// measureMap.
 Result<std::vector<MapError>> measureReadings(const MapImage& map, const LowPoly& low, const HighPoly& high,
                                               std::span<const MapCandidate> candidates,
                                               const MapErrorOptions& options = {}, const Execution& execution = {},
@@ -276,7 +277,7 @@ struct ConvertMapReport {
     /// From tangent to object space: overlapping texels whose triangles require directions over 2 degrees apart, as in
     /// mirrored halves. Only one direction can be stored.
     std::uint64_t conflicting = 0;
-    // Triangles that are ignored:
+    // Numbers of ignored triangles:
     std::uint64_t degenerate_uv_count = 0;  ///< triangles without UV area
     std::uint64_t bad_uv_count = 0;         ///< triangles whose UVs are not finite, or span over 64 texture repeats
     std::uint64_t unmatched = 0;  ///< texels of the source's triangles that the other side does not cover: unchanged
@@ -424,7 +425,7 @@ struct BakedMap {
     /// Error against the outermost front face of the high poly, as shaded, whatever the ray target of the map: the
     /// visible error.
     MapError error = {};
-    /// Error against the hits of the map's own rays, with RayTarget::nearest; otherwise without samples.
+    /// With RayTarget::nearest: error against the hits of the rays of the bake itself. Otherwise without samples.
     MapError own_error = {};
 };
 
@@ -433,7 +434,7 @@ struct BakedMap {
 std::uint64_t bakeBytes(std::uint64_t low_triangles, std::uint64_t high_triangles, const BakeOptions& options);
 
 /// Bakes one image. The same texels for any thread count. Time: about 1 microsecond per ray, with 1 ray per texel or,
-/// with `solve`, 1 to 10, and with `solve` 1 to 3 microseconds more per texel. Errors as measureMap; tooLarge;
+/// with `solve`, 1 to 10, and with `solve` 1 to 3 microseconds more per texel. Errors: those of measureMap; tooLarge;
 /// missingAttribute also if no ray hits the high poly, or the UVs cover no texel. Thread-safe.
 Result<BakedMap> bakeMap(const LowPoly& low, const HighPoly& high, const BakeOptions& options = {},
                          const Execution& execution = {}, const Progress& progress = {});
@@ -515,7 +516,7 @@ Vec3 idColor(std::uint32_t id);
 std::uint64_t layerBytes(std::uint64_t high_triangles, const BakeOptions& options, const LayerOptions& layers);
 
 /// Bakes one image with layers. The same texels for any thread count. Time: one ray per texel, `ray_count` more for
-/// `ao` and `bent`, as many for `thickness`; 1 to 9 per texel for colors. Errors as bakeMap; also invalidOption and
+/// `ao` and `bent`, as many for `thickness`; 1 to 9 per texel for colors. Errors: those of bakeMap, invalidOption and
 /// countMismatch.
 Result<BakedMaps> bakeMaps(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
                            const LayerOptions& layers, const Execution& execution = {}, const Progress& progress = {});

@@ -243,9 +243,9 @@ Result<TangentReport> evaluateTangents(const TangentPlan& plan, const Pose& pose
 // Repair of invalid tangents; valid tangents keep their bits.
 
 struct SanitizeOptions {
-    /// Also make every valid tangent unit and orthogonal to N. Off by default: the result would no longer match a bake
-    /// made with the method's own tangents (quantized normals are not unit, so the reference's tangents can deviate by
-    /// up to a degree).
+    /// Also normalize valid tangents and make them orthogonal to N. Off by default: the result would no longer match a
+    /// bake made with the method's own tangents (quantized normals are not unit, so the reference's tangents can
+    /// deviate by up to a degree).
     bool orthogonalize_all = false;
 };
 

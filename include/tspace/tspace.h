@@ -860,9 +860,9 @@ tspace_ErrorCode tspace_measurePositionNoise(const tspace_Mesh* mesh, const tspa
 
 typedef struct tspace_SanitizeOptions {
     uint32_t struct_size;
-    /* 0 or 1. Also make every valid tangent unit and orthogonal to N. Off by default: the result would no longer
-     * match a bake made with the method's own tangents (quantized normals are not unit, so the reference's tangents
-     * can deviate by up to a degree). */
+    /* 0 or 1. Also normalize valid tangents and make them orthogonal to N. Off by default: the result would no
+     * longer match a bake made with the method's own tangents (quantized normals are not unit, so the reference's
+     * tangents can deviate by up to a degree). */
     uint32_t orthogonalize_all;
 } tspace_SanitizeOptions;
 
@@ -974,10 +974,10 @@ void tspace_destroySplitResult(tspace_SplitResult* result) TSPACE_NOEXCEPT;
 typedef struct tspace_IndexedFramesOptions {
     uint32_t struct_size;
     uint32_t make_normals; /* 0 or 1. Recompute existing normals; missing normals are always computed */
-    /* 0 or 1. Repair tangents that are not finite, zero, not unit, parallel to N, or of mixed sign inside a face.
-     * Default: 1. */
+    /* 0 or 1. Repair tangents that contain NaN or infinity, are zero, do not have unit length, are parallel to N, or
+     * have different signs within a face. Default: 1. */
     uint32_t sanitize;
-    uint32_t orthogonalize_all; /* 0 or 1. Like tspace_SanitizeOptions.orthogonalize_all */
+    uint32_t orthogonalize_all; /* 0 or 1. Same meaning as tspace_SanitizeOptions.orthogonalize_all */
     /* Tangent options. The convention must be set; it also defines the outside of a face. Results are per corner
      * (`domain`): the split turns them into vertices.
      * In C: not null. */
@@ -1201,7 +1201,7 @@ typedef struct tspace_WindingOptions {
     /* 0 or 1. 1: weld vertices with equal positions (so a non-indexed mesh is a connected surface); 0: weld by index
      * only. Default: 1. */
     uint32_t weld_positions;
-    /* With `weld_positions`: maximum difference per coordinate of welded positions, as in
+    /* With `weld_positions`: maximum difference per coordinate of welded positions. Same meaning as
      * tspace_NormalOptions.weld_distance. 0, the default: only equal positions. -1: derived from the spacing of
      * floats. */
     float weld_distance;

@@ -76,15 +76,15 @@ tspace_ErrorCode tspace_generateBytes(const tspace_Model* model, const char* opt
 /* Reads a model and reports faults of its frames; or reads an image (recognized by its extension, or by the first
  * bytes of file.content) and reports its faults as a normal map, with the same tests but without a mesh. Near-linear
  * in the size of the model. Memory: the model as floats, and about 150 bytes per triangle of the primitives in
- * progress. Thread-safe; the report does not depend on the number of threads. Errors as tspace_generateFile; also
- * INVALID_OPTION (an angle or share that is negative or not finite).
+ * progress. Thread-safe; the report does not depend on the number of threads. Errors: those of tspace_generateFile,
+ * and INVALID_OPTION (an angle or share that is negative or not finite).
  * In C: options of `tspace check`, report tspace.check/1. */
 tspace_ErrorCode tspace_checkFile(const char* input, const char* options, tspace_Bytes* report,
                                   tspace_Error* error) TSPACE_NOEXCEPT;
 tspace_ErrorCode tspace_checkBytes(const tspace_Model* model, const char* options, tspace_Bytes* report,
                                    tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Reads a model and returns its properties. Errors as tspace_generateFile.
+/* Reads a model and returns its properties. Errors: those of tspace_generateFile.
  * In C: options of `tspace inspect`, report tspace.inspect/1. */
 tspace_ErrorCode tspace_inspectFile(const char* input, const char* options, tspace_Bytes* report,
                                     tspace_Error* error) TSPACE_NOEXCEPT;

@@ -18,7 +18,7 @@ struct WindingOptions {
     /// true: weld vertices with equal positions (so a non-indexed mesh is a connected surface); false: weld by index
     /// only.
     bool weld_positions = true;
-    /// With `weld_positions`: maximum difference per coordinate of welded positions, as in
+    /// With `weld_positions`: maximum difference per coordinate of welded positions. Same meaning as
     /// NormalOptions::weld_distance. 0, the default: only equal positions. -1: derived from the spacing of floats.
     float weld_distance = 0;
 };
@@ -33,7 +33,7 @@ struct WindingReport {
     std::uint64_t component_count = 0;
     std::uint64_t turned_component_count = 0;  ///< components in which more than half of the faces are flipped
 
-    // Number of components by the rule that decided their outside; the sum is component_count:
+    // Numbers of components, for each rule that decided their outside; the sum is component_count:
 
     std::uint64_t by_normals_count = 0;  ///< normals of the mesh
     std::uint64_t by_volume_count = 0;   ///< closed: the volume must be positive

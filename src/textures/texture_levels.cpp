@@ -78,7 +78,9 @@ void addWarnings(const FloatImage& image, std::uint64_t far_off, const CompressM
     const auto warn = [&](std::string text) { report.warnings.push_back(std::move(text)); };
     const std::uint64_t total = image.texels.size();
     if (report.below_horizon > 0 && !has_three)
-        warn(std::to_string(report.below_horizon) + " texels point below the surface, which two channels cannot store");
+        warn(std::to_string(report.below_horizon) +
+             " texels point below the surface, which two channels cannot store; "
+             "they were moved to the horizon (z = 0)");
     if (far_off > total / 10)
         warn(std::to_string(far_off) + " of " + std::to_string(total) +
              " texels are not unit vectors; check that the image is a normal map in tangent space");

@@ -46,7 +46,7 @@ void limitAll(rlim_t bytes, rlim_t processor_seconds, unsigned seconds) {
     // The soft limit sends a signal, by which the parent detects the cause. The hard limit ends the process if it
     // ignores the signal.
     limit(RLIMIT_CPU, processor_seconds, processor_seconds + 1);
-    // The timer expires one second after the parent's limit, for the case that the parent no longer exists.
+    // The timer expires one second after the parent's limit, in case the parent no longer exists.
     alarm(seconds + 1);
 #if defined(RLIMIT_AS) && !defined(TSPACE_SANITIZED)  // sanitizers reserve terabytes of address space
     limit(RLIMIT_AS, bytes, bytes);

@@ -139,8 +139,8 @@ export interface GenerateFileOptions {
   crease?: number | string;
   /**
    * Denoising for `normals` best on noisy positions, such as scans: normals are computed from a larger neighborhood, so
-   * that noise is not shaded. Vertices do not move. auto: strength from the measured noise level, or off if the
-   * deviations look like real detail; 0: off; up to 4: multiple of the measured noise level, applied even if the
+   * that noise does not show in the shading. Vertices do not move. auto: strength from the measured noise level, or off
+   * if the deviations look like real detail; 0: off; up to 4: multiple of the measured noise level, applied even if the
    * deviations look like real detail. Default: 0.
    */
   denoise?: number | string;

@@ -160,8 +160,8 @@ pub struct WindingOptions {
     /// true: weld vertices with equal positions (so a non-indexed mesh is a connected surface); false: weld by index
     /// only.
     pub weld_positions: bool,
-    /// With `weld_positions`: maximum difference per coordinate of welded positions, as in `weld_distance`. 0, the
-    /// default: only equal positions. -1: derived from the spacing of floats.
+    /// With `weld_positions`: maximum difference per coordinate of welded positions. Same meaning as
+    /// `weld_distance`. 0, the default: only equal positions. -1: derived from the spacing of floats.
     pub weld_distance: f32,
     /// Default: the calling thread.
     pub execution: Execution,

@@ -167,7 +167,8 @@ constexpr double kClearlyWrong = 0.2;
 /// The primitive's own UV set without its texture transform, which may mirror, is also tried if the signs are wrong on
 /// more than this share.
 constexpr double kSomeSigns = 0.1;
-/// UVs explain the tangents only if directions and signs are wrong on at most this share each.
+/// UVs explain the tangents only if directions, and also signs (unless all are inverted, for another UV set), are wrong
+/// on at most this share.
 constexpr double kExplained = 0.02;
 /// Other UVs explain the tangents only if they have area on at least this share of the surface that has UV area in the
 /// expected UVs.

@@ -155,7 +155,9 @@ void addMapWarnings(const ConvertMapFileOptions& options, ConvertMapFileReport& 
              " texels were not changed, because their frames or values are invalid");
     }
     if (texels.below_horizon > 0) {
-        warn(std::to_string(texels.below_horizon) + " texels point below the surface, which two channels cannot store");
+        warn(std::to_string(texels.below_horizon) +
+             " texels point below the surface, which two channels cannot store; "
+             "they were moved to the horizon (z = 0)");
     }
     const bool has_mesh = report.from.triangle_count + report.to.triangle_count > 0;
     if (has_mesh && texels.converted == 0) warn("the map was not converted, because no triangle of the mesh uses it");
@@ -396,7 +398,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
     add(list, group,
         readingOption(
             "--to-convention", options.to_reading,
-            "Program that will show the output: gltf, opengl, directx, unreal, unity, blender, godot or three."));
+            "Program that will use the output: gltf, opengl, directx, unreal, unity, blender, godot or three."));
     add(list, group,
         choice("--from-bitangent", "WHERE", kBitangents, options.from_reading.bitangent,
                "Bitangents that the map was made for. vertex: computed per vertex and interpolated; pixel: computed "

@@ -47,9 +47,9 @@ OptionList finishOptions(FinishOptions& options) {
     addKeepCoordinates(list, options.file);
     add(list, "Normals",
         choice("--normals", "WHICH", kFinishNormals, options.normals,
-               "Normals to recompute, by method best. missing: missing normals and normals that check reports as "
-               "errors; all: every normal; none: keep all existing normals, and compute missing ones only if tangents "
-               "require them."));
+               "Normals to recompute, with the method of generate --normals best. missing: missing normals and normals "
+               "that check reports as errors; all: every normal; none: keep all existing normals, and compute missing "
+               "ones only if tangents require them."));
     add(list, "Normals",
         numberOrAuto(
             "--crease", "DEG", "a number of degrees", options.crease_angle_deg, NormalOptions::crease_auto, 180,

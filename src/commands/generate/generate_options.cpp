@@ -230,9 +230,10 @@ void addOtherOptions(OptionList& list, GenerateOptions& options) {
     add(list, "Normals",
         numberOrAuto("--denoise", "FACTOR", "a number", options.normals.compute.denoise, NormalOptions::denoise_auto, 4,
                      "Denoising for --normals best on noisy positions, such as scans: normals are computed from a "
-                     "larger neighborhood, so that noise is not shaded. Vertices do not move. auto: strength from the "
-                     "measured noise level, or off if the deviations look like real detail; 0: off; up to 4: multiple "
-                     "of the measured noise level, applied even if the deviations look like real detail."));
+                     "larger neighborhood, so that noise does not show in the shading. Vertices do not move. auto: "
+                     "strength from the measured noise level, or off if the deviations look like real detail; 0: off; "
+                     "up to 4: multiple of the measured noise level, applied even if the deviations look like real "
+                     "detail."));
     add(list, "Normals",
         numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.normals.compute.weld_distance,
                      NormalOptions::weld_auto, 1000000000,

@@ -180,8 +180,8 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
         return std::string();
     };
     Option convention = option("--convention", "NAME", take_convention,
-                               "Program that will show the output: gltf, opengl, directx, unreal, unity, blender, "
-                               "godot or three. Green points down for directx and unreal, and up for the others.");
+                               "Program that will use the output: gltf, opengl, directx, unreal, unity, blender, godot "
+                               "or three. Green points down for directx and unreal, and up for the others.");
     convention.choices = {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot", "three"};
     convention.default_text = "gltf";
     add(list, "Map", convention);

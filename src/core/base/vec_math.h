@@ -193,8 +193,8 @@ inline SineCosine sineCosine(double angle) {
 /// not. 0 if either vector is zero.
 inline double angleBetween(const DVec3& a, const DVec3& b) { return polarAngle(dot(a, b), length(cross(a, b))); }
 
-// Vectors of four floats, by the vector extensions of GCC and Clang: SSE2 on x86-64, NEON on 64-bit ARM, other units or
-// scalar code elsewhere. Every lane rounds like the scalar operation, so the bits are equal everywhere.
+// Vectors of four floats, with the vector extensions of GCC and Clang: SSE2 on x86-64, NEON on 64-bit ARM, other units
+// or scalar code elsewhere. Every lane rounds like the scalar operation, so the bits are equal everywhere.
 
 using Float4 = float __attribute__((vector_size(16)));
 /// Result of a comparison: in each lane, all bits are set or none.

@@ -182,7 +182,7 @@ class Welder {
         return std::min(count_, kShare * counting.sum(parallel_));
     }
 
-    /// Finds the roots of few vertices, by hashes only: the table fits into the L1 cache.
+    /// Finds the roots of few vertices, using only hashes: the table fits into the L1 cache.
     bool matchFew() {
         Buffer<std::uint32_t> table(transient_, std::bit_ceil(2 * count_), Weldable::kNoRoot);
         for (std::uint32_t v = 0, mask = static_cast<std::uint32_t>(table.size() - 1); v < count_; ++v) {
@@ -194,8 +194,8 @@ class Welder {
         return true;
     }
 
-    /// Finds the roots of many vertices, by hashes only: each task has the vertices of one range of hashes and a part
-    /// of the table. Returns false if hashes collide more often than by chance.
+    /// Finds the roots of many vertices, using only hashes: each task has the vertices of one range of hashes and a
+    /// part of the table. Returns false if hashes collide more often than by chance.
     bool matchHashes(std::size_t distinct) {
         const std::size_t tasks =
             entry_count_ < 2 * kGrain

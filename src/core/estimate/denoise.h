@@ -320,13 +320,14 @@ double roughnessOf(const NormalsCall& call);
 struct Dihedrals {
     double quarter = 0, median = 0;
 };
-/// Roughness of a surface, from noise or shape: sigma of PositionNoise, from fits only, and its dihedral angles.
+/// Roughness of a surface, whether it is noise or shape: the standard deviation of positions from fits (an upper limit
+/// of PositionNoise::sigma), and the dihedral angles.
 struct Roughness {
     double sigma = 0;
     Dihedrals dihedrals = {};
     bool is_known = false;
 };
-/// Measures some thousand of the first `all` groups. `groups`: in units of the mean edge.
+/// Measures a sample of 1024 to 4096 of the first `all` groups. `groups`: in units of the mean edge.
 Roughness measureRoughness(const NormalGroups& groups, std::size_t all, const Allocator* allocator);
 
 /// Returns the part of sigma that is noise rather than shape.

@@ -11,7 +11,7 @@ namespace tspace {
 /// whose surroundings do not move keeps its bits.
 ///
 /// positions   one per vertex of the mesh
-/// Errors, complexity, memory and threads: as generateNormals.
+/// Errors, complexity, memory and threads: those of generateNormals.
 Result<NormalReport> generatePoseNormals(const MeshView& mesh, const StridedSpan<const Vec3>& positions,
                                          const NormalOptions& options, StridedSpan<Vec3> out,
                                          const Execution& execution = {});
@@ -19,7 +19,7 @@ Result<NormalReport> generatePoseNormals(const MeshView& mesh, const StridedSpan
 /// Finds the corners that share one normal in all poses. Returns for each corner the lowest such corner, or
 /// kNoSharedNormal if the corner does not contribute to the mean because its face visits the point twice. With
 /// weighting flat, every corner is separate.
-/// Errors: as generateNormals, and invalidOption for faces that are not triangles.
+/// Errors: those of generateNormals, and invalidOption for faces that are not triangles.
 inline constexpr std::uint32_t kNoSharedNormal = 0x80000000u;  ///< flag that is combined with the number of the corner
 Result<std::vector<std::uint32_t>> findSharedNormals(const MeshView& mesh, const NormalOptions& options,
                                                      const Execution& execution = {});

@@ -113,9 +113,10 @@ class Variants {
 
     // Finds the cells of a corner in the index of variants, a tree whose nodes are identified by hashes. The first
     // level is the old vertex with the bits of all exact attributes; then one level for each component of the other
-    // attributes, by its cell on a line that is divided into cells as wide as the tolerance. A leaf is a list of
-    // variants, linked by next_, that nearly always has one entry. A lookup follows the three adjacent cells on each
-    // level, if they exist; the number of variants around a point is bounded, and therefore also the cost per corner.
+    // attributes, which contains the cells of a line that is divided into cells as wide as the tolerance. A leaf is a
+    // list of variants, linked by next_, that nearly always has one entry. A lookup follows the three adjacent cells on
+    // each level, if they exist; the number of variants around a point is bounded, and therefore also the cost per
+    // corner.
 
     [[gnu::cold]] void findCells(std::uint32_t corner, std::uint32_t vertex) {
         root_ = mixBits(vertex);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// General path of normal smoothing, by ranges of points: the corners at each point are collected with their face
-// normals and weights; then the components around each point are found, and the mean of each is computed. The kernel
-// computes normals and angles of triangles.
+// General path of normal smoothing, which processes ranges of points: the corners at each point are collected with
+// their face normals and weights; then the components around each point are found, and the mean of each is computed.
+// The kernel computes normals and angles of triangles.
 // Based on: Gouraud 1971 (uniform); Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998
 // (angle); Max, "Weights for Computing Vertex Normals from Facet Normals", 1999 (max).
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Sums of weighted face normals per point, by SIMD in blocks of triangles. No list of the corners around a point is
-// needed: if its mean vanishes, a corner's substitute depends on its own face. Ranges of points are summed, finished
-// and written one after the other, and fit into a cache if triangles are stored close together.
+// Sums of weighted face normals per point, computed with SIMD in blocks of triangles. No list of the corners around a
+// point is needed: if its mean vanishes, a corner's substitute depends on its own face. Ranges of points are summed,
+// finished and written one after the other, and fit into a cache if triangles are stored close together.
 // Based on: Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998.
 #include <algorithm>
 #include <atomic>

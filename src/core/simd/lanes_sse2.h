@@ -14,12 +14,12 @@ inline constexpr std::size_t kWidth = 4;
 #include "core/simd/lanes_rows.h"
 
 inline unsigned bitsOf(Mask m) { return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(m.v))); }
-/// Return the minimum and maximum, by intrinsics: GCC does not recognize a minimum if one operand is a constant.
+/// Return the minimum and maximum, with intrinsics: GCC does not recognize a minimum if one operand is a constant.
 inline Floats smaller(Floats a, Floats b) { return {_mm_min_ps(a.v, b.v)}; }
 inline Floats larger(Floats a, Floats b) { return {_mm_max_ps(a.v, b.v)}; }
 inline Floats squareRoot(Floats a) { return {_mm_sqrt_ps(a.v)}; }
 
-/// Compares by an intrinsic, because GCC compiles the operator to branches.
+/// Compares with an intrinsic, because GCC compiles the operator to branches.
 inline DoubleMask operator>(Doubles a, Doubles b) { return {reinterpret_cast<LongVector>(_mm_cmpgt_pd(a.v, b.v))}; }
 inline unsigned bitsOf(DoubleMask m) { return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(m.v))); }
 inline Doubles squareRoot(Doubles a) { return {_mm_sqrt_pd(a.v)}; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pairs faces at edges, and finds components: makes their winding consistent by traversing the pairs, and computes the
-// sums by which the outside of a component is decided.
+// sums that decide the outside of a component.
 #include "core/winding/components.h"
 
 #include <algorithm>

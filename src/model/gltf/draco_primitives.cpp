@@ -217,7 +217,7 @@ class Decoder {
         limits.bytes = bytes * kWorkFactor;
         const BufferView view = readBufferView(document_, packed.view);
         if (document_.buffers[view.buffer].source == BufferSource::absent)
-            failFile(ErrorCode::invalidFile, "the buffer of the Draco data is empty", packed.place());
+            failFile(ErrorCode::invalidFile, "the buffer of the Draco data has no data", packed.place());
         const auto data = document_.buffers[view.buffer].bytes.range(view.begin, view.byte_count);
         if (const std::string fault = decodeDraco(data, limits, mesh); !fault.empty())
             failFile(ErrorCode::invalidFile, fault, packed.place());

@@ -75,7 +75,7 @@ void checkLooksLikeJson(std::span<const std::uint8_t> text) {
     const std::size_t first = view.find_first_not_of(" \t\r\n");
     if (text.empty()) failFile(ErrorCode::invalidFile, "the file is empty", "byte 0");
     if (first != std::string_view::npos && view[first] == '[')
-        failFile(ErrorCode::invalidFile, "the JSON is not an object", "byte 0");
+        failFile(ErrorCode::invalidFile, "the top level of the JSON is not an object", "byte 0");
     if (first == std::string_view::npos || view[first] != '{') {
         failFile(ErrorCode::invalidFile, "the file is neither a GLB nor a glTF JSON file", "byte 0");
     }

@@ -57,7 +57,7 @@ void readRange(const Document& document, const Json& object, const std::string& 
     view.byte_count = readSize(object, "byteLength", place);
     const Buffer& data = document.buffers[view.buffer];
     if (!data.hasStoredBytes())
-        failFile(ErrorCode::invalidFile, "the buffer of the compressed data is empty", join(place, "buffer"));
+        failFile(ErrorCode::invalidFile, "the buffer of the compressed data has no data", join(place, "buffer"));
     if (view.begin > data.bytes.size() || view.byte_count > data.bytes.size() - view.begin) {
         failFile(ErrorCode::invalidFile,
                  "the compressed data extends beyond its buffer of " + std::to_string(data.bytes.size()) + " bytes",

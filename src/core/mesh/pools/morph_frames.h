@@ -87,7 +87,7 @@ class MorphPose {
     std::vector<Vec3> positions_, normals_;
 };
 
-/// Returns to - from, without negative zeros; zero if it is not finite.
+/// Returns `to` - `from`, without negative zeros; zero if the difference is not finite.
 Vec3 offsetBetween(const Vec3& from, const Vec3& to);
 
 /// Corners that keep the offsets of the file while tangents are repaired, in targets that have offsets.

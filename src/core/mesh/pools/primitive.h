@@ -206,7 +206,7 @@ Result<PoolFrames> computeFrames(const PoolView& pool, std::span<const Primitive
 ///
 /// normals        generated normals, one per vertex, or empty
 /// corner_lists   one list per report, three corners per triangle
-/// weld_distance  as NormalOptions::weld_distance
+/// weld_distance  same meaning as NormalOptions::weld_distance
 void countFaults(std::span<const Vec3> positions, std::span<const Vec3> normals,
                  std::span<const std::vector<std::uint32_t>> corner_lists, float weld_distance,
                  std::span<FramesReport> reports);
