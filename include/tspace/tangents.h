@@ -273,10 +273,10 @@ struct SanitizeReport {
     }
 };
 
-/// Repairs tangents in place. A tangent is invalid if it is not finite, zero, not unit (beyond 5e-4), within 1 degree
-/// of +-N, a placeholder that is not perpendicular to N, if its sign is not +-1, or if the signs inside its face
-/// differ. Repaired tangents are unit and orthogonal to the corner's N (normalized) within 1e-6, with sign +1 or -1.
-/// Valid tangents keep every bit.
+/// Repairs tangents in place. A tangent is invalid if it contains NaN or infinity, is zero, has a length that differs
+/// from 1 by more than 5e-4, is within 1 degree of +-N, is a placeholder that is not perpendicular to N, has a sign
+/// that is not +-1, or if the signs within its face differ. Repaired tangents are unit and orthogonal to the corner's N
+/// (normalized) within 1e-6, with sign +1 or -1. Valid tangents keep every bit.
 ///
 /// Placeholder: the reference writes exactly (1, 0, 0) to corners around which no triangle has UV area, for any N. A
 /// tangent from UVs with these bits has been projected along N, so it is perpendicular to N.

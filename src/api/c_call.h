@@ -64,7 +64,8 @@ std::string requiredText(const char* text, const char* name);
 /// Parses options; null means none. Fails with invalidOption.
 void readOptions(const options::OptionList& list, const char* text, options::Given& given);
 
-/// Same as tspace_generateBytes and tspace_checkBytes, but with a progress callback that may end the call by throwing.
+/// These do the same as tspace_generateBytes and tspace_checkBytes, but with a progress callback that may end the call
+/// by throwing.
 tspace_ErrorCode generateBytes(const tspace_Model* model, const char* options, const Progress& progress,
                                tspace_Bytes* output, tspace_Bytes* report, tspace_Error* error) noexcept;
 tspace_ErrorCode checkBytes(const tspace_Model* model, const char* options, const Progress& progress,

@@ -110,8 +110,8 @@ namespace Tspace
             return made;
         }
 
-        /// <summary>Repairs tangents in place, 4 floats per corner, that are not finite, zero, not unit, parallel to N,
-        /// or whose signs differ within a face. Valid tangents keep all bits. Returns the number of repaired
+        /// <summary>Repairs in place the tangents (4 floats per corner) that contain NaN or infinity, are zero, do not
+        /// have unit length, are parallel to N, or have different signs within a face. Valid tangents keep all bits. Returns the number of repaired
         /// tangents.</summary>
         public static long Sanitize(in Mesh mesh, Span<float> tangents, bool orthogonalizeAll = false, int threads = 1)
         {

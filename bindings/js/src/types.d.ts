@@ -130,8 +130,8 @@ export const ready: Promise<void>;
 export function release(): void;
 
 /**
- * Repairs tangents that are not finite, zero, not unit, parallel to N, placeholders, or whose sign is not +-1 or differs
- * inside a face. Valid tangents keep every bit. Needs positions and normals.
+ * Repairs tangents that contain NaN or infinity, are zero, do not have unit length, are parallel to N, are placeholders,
+ * have a sign that is not +-1, or have different signs within a face. Valid tangents keep every bit. Needs positions and normals.
  * @param tangents four numbers per corner
  * @returns a repaired copy
  */

@@ -7,7 +7,8 @@ use crate::sys;
 use crate::tangents::{new_report, span};
 use std::ptr::{null, null_mut};
 
-/// Repairs tangents in place that are not finite, zero, not unit, parallel to N, or whose signs differ within a face.
+/// Repairs in place the tangents that contain NaN or infinity, are zero, do not have unit length, are parallel to N, or
+/// have different signs within a face.
 /// Valid tangents keep all bits, unless `orthogonalize_all`. The mesh needs normals.
 pub fn sanitize(
     mesh: &Mesh<'_>,

@@ -277,7 +277,7 @@ class SeamFinder {
     std::vector<DirectionCone> cones_ = {};
 };
 
-/// If nearly all directions of a patch are wrong, the remaining ones are treated as wrong too: cones are wide where
+/// Reports the remaining directions of a patch as wrong too if nearly all judged ones are: cones are wide where
 /// triangles fold, so nearly any direction lies inside. Fixing only some of them would leave seams. If most directions
 /// of a patch are correct, the remaining ones are treated as correct.
 void findUndecided(const TangentView& mesh, const Surface& surface, std::span<const float> directions,

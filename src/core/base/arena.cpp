@@ -181,7 +181,7 @@ class Arena::Impl {
         blocks_.erase(block + 1);
     }
 
-    /// Offset of the end of the last block in use.
+    /// Returns the offset of the end of the last block in use.
     [[nodiscard]] std::size_t end() const { return blocks_.empty() ? 0 : blocks_.back().begin + blocks_.back().bytes; }
 
     bool commitUpTo(std::size_t begin, std::size_t bytes) {

@@ -249,8 +249,9 @@ class RingSums {
     std::size_t count_ = 0;
 };
 
-/// Gaussian elimination without pivoting, since the matrix is positive definite. A pivot below this fraction of its
-/// diagonal means that the points do not determine the surface: sums in single precision are accurate to 1e-6 of it.
+/// Performs Gaussian elimination without pivoting, since the matrix is positive definite. A pivot below kLeastPivot
+/// times its diagonal element means that the points do not determine the surface: sums in single precision are accurate
+/// to 1e-6 of that element.
 template <bool kHeightLast>
 RingSums::Rest RingSums::eliminate() const {
     constexpr double kLeastPivot = 1e-4;

@@ -366,8 +366,8 @@ class Sanitizer {
         }
     }
 
-    /// If N has no direction, corners at one position with substituted tangents and equal signs share the first of
-    /// these tangents, so that no vertex has to be split.
+    /// Where N has no direction, lets corners at one position with substituted tangents and equal signs share the first
+    /// of these tangents, so that no vertex has to be split.
     void alignWithoutNormals() {
         if (points_.empty()) points_ = weldPositions(mesh_, allocator_, parallel_);
         Buffer<Vec4> made(allocator_, 2 * mesh_.vertexCount(), Vec4{});

@@ -39,7 +39,7 @@ class FilteredForm {
     [[nodiscard]] std::size_t height() const { return height_; }
     /// Returns the x and y with the least error of the filtered map, without block compression.
     [[nodiscard]] const std::vector<Vec2>& best() const { return best_; }
-    /// Metric tensor of the square to the right of and below a texel: xx, xy, yy.
+    /// Returns the metric tensor of the square to the right of and below a texel: xx, xy, yy.
     [[nodiscard]] const Vec3& metric(std::size_t x, std::size_t y) const { return metrics_[y * width_ + x]; }
 
     /// Returns the row of the form for a texel, from the metrics of the four adjacent squares: above (left, right) and

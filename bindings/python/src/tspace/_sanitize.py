@@ -72,7 +72,10 @@ def sanitize(
     out: Optional[numpy.ndarray] = None,
     full: bool = False,
 ) -> Union[FloatArray, SanitizeResult]:
-    """Repairs tangents that are not finite, zero, not unit, parallel to N, or have mixed signs within a face.
+    """Repairs invalid tangents.
+
+    A tangent is invalid if it contains NaN or infinity, is zero, does not have unit length, is parallel to N, or if the
+    signs within its face differ.
 
     Returns (corners, 4) float32. Valid tangents keep all bits. Repaired ones are unit and orthogonal to the corner's N.
 

@@ -28,7 +28,7 @@ float dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 float length(Vec3 v) { return std::sqrt(dot(v, v)); }
 float component(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-/// The reference's test for zero: denormal numbers and NaN count as zero.
+/// Returns whether x is not zero by the reference's test, in which denormal numbers and NaN count as zero.
 bool isNotZero(float x) { return std::fabs(x) > 1.17549435e-38f; }
 
 /// Returns v divided by its length. A vector whose components all count as zero is returned unchanged.
