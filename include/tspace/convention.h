@@ -29,7 +29,7 @@ enum class Winding : std::uint32_t { counterClockwise = 0, clockwise = 1 };
 
 /// There is no default: choose a preset, such as `conventions::gltf`. `conventions::opengl` is the mathematical
 /// convention: B points along increasing v, B = sign * cross(N, T), and faces are counter-clockwise in a right-handed
-/// system; with it `mikktspace` returns the sign of the reference.
+/// system; with it Method::mikktspace returns the sign of the reference.
 ///
 /// T always points along increasing u. The green axis of the image determines the direction of B, and so the stored
 /// sign:

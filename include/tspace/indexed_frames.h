@@ -113,7 +113,7 @@ struct IndexedFrames {
 /// order in which corners first use them: one for all corners with the same bits of position, normal, UV, tangent and
 /// `keep_apart` (+0 and -0 of a position are equal, as for normals).
 ///
-/// mesh       positions; normals or none; UVs (all methods but `basis`)
+/// mesh       positions; normals or none; UVs (all methods but Method::basis)
 /// execution  threads and memory of all steps; does not affect the result
 /// Errors: those of the four calls. O(corners) expected. Thread-safe; same bits for any thread count.
 Result<IndexedFrames> makeIndexedFrames(const MeshView& mesh, const IndexedFramesOptions& options,

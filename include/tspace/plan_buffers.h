@@ -38,7 +38,8 @@ struct PlanBufferOptions {
 /// Entries, 1 word each, in the order of summation: a corner of a triangle, 4 * triangle + corner, with flags.
 /// 0xffffffff separates parts of a result that is the normalized mean of several.
 /// Triangles: three vertices, then UV coefficients as floats: (a, b) with dP/du along a * e1 - b * e2, where
-/// e1 = P1 - P0, e2 = P2 - P0; for `lengyel` (a, b, c, d) with dP/du = a * e1 - b * e2 and dP/dv = c * e2 - d * e1.
+/// e1 = P1 - P0, e2 = P2 - P0; for Method::lengyel (a, b, c, d) with dP/du = a * e1 - b * e2 and
+/// dP/dv = c * e2 - d * e1.
 struct PlanBuffers {
     static constexpr std::uint32_t kVersion = 1;
 
@@ -87,7 +88,7 @@ struct PlanBuffers {
 };
 
 /// Writes the plan as words: about 12 bytes per result, and 32 per triangle for entries and triangles (40 for
-/// `lengyel`).
+/// Method::lengyel).
 ///
 /// Errors: invalidOption for the methods flat, basis and best, for FrameShape::symmetric, for normals that are `best`
 /// or denoised, and for a plan with several index lists without `indices`; countMismatch and indexOutOfRange for arrays

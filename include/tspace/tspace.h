@@ -54,8 +54,8 @@ extern "C" {
     ((void)memset(&(object), 0, sizeof(object)), (void)((object).struct_size = (uint32_t)sizeof(object)), \
      TSPACE_SET_DEFAULTS(object))
 
-/* Returns the version of the linked library: 10000 * major + 100 * minor + patch. TSPACE_VERSION_NUMBER is the
- * version of the headers. */
+/* In C: returns the version of the linked library: 10000 * major + 100 * minor + patch. TSPACE_VERSION_NUMBER is
+ * the version of the headers. */
 uint32_t tspace_version(void) TSPACE_NOEXCEPT;
 
 /* Reason why a call failed. The numbers are stable, equal in C and C++, and never reused. */
@@ -113,14 +113,14 @@ typedef struct tspace_ConstSpan {
     size_t stride_bytes;
 } tspace_ConstSpan;
 
-/* Like tspace_ConstSpan, for results. */
+/* In C: like tspace_ConstSpan, for results. */
 typedef struct tspace_Span {
     float* data;
     size_t count;
     size_t stride_bytes;
 } tspace_Span;
 
-/* Like tspace_ConstSpan, for results of one byte each. stride_bytes 0: tightly packed. */
+/* In C: like tspace_ConstSpan, for results of one byte each. stride_bytes 0: tightly packed. */
 typedef struct tspace_ByteSpan {
     uint8_t* data;
     size_t count;
@@ -254,7 +254,7 @@ tspace_ErrorCode tspace_initExecution(tspace_Execution* execution, uint32_t stru
  * outlive the plans whose memory it holds. It cannot be moved. */
 typedef struct tspace_Arena tspace_Arena;
 
-/* Creates an empty arena.
+/* In C: creates an empty arena.
  * arena     *arena is null after an error. Free it with tspace_destroyArena.
  * Errors: NULL_DATA, OUT_OF_MEMORY. */
 tspace_ErrorCode tspace_createArena(tspace_Arena** arena, tspace_Error* error) TSPACE_NOEXCEPT;
@@ -270,7 +270,7 @@ size_t tspace_arenaUsedBytes(const tspace_Arena* arena) TSPACE_NOEXCEPT;
 /* Releases the memory behind the last allocation in use; between calls without plans, that is all memory. */
 void tspace_trimArena(tspace_Arena* arena) TSPACE_NOEXCEPT;
 
-/* Frees an arena. Null is allowed. */
+/* In C: frees an arena. Null is allowed. */
 void tspace_destroyArena(tspace_Arena* arena) TSPACE_NOEXCEPT;
 
 /* Position of v = 0 in the texture. It decides every sign, so it has no default. */
@@ -583,12 +583,12 @@ typedef struct tspace_TangentPlanInfo {
     size_t memory_bytes; /* Returns the memory that the plan uses, in bytes. */
 } tspace_TangentPlanInfo;
 
-/* Returns the properties of a plan. info is written on success only.
+/* In C: returns the properties of a plan. info is written on success only.
  * Errors: NULL_DATA, INVALID_OPTION. */
 tspace_ErrorCode tspace_describeTangentPlan(const tspace_TangentPlan* plan, tspace_TangentPlanInfo* info,
                                             tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Frees a plan. Null is allowed. */
+/* In C: frees a plan. Null is allowed. */
 void tspace_destroyTangentPlan(tspace_TangentPlan* plan) TSPACE_NOEXCEPT;
 
 /* Triangles of a polygon mesh, as corners of the original mesh (not vertices), so that per-corner results still
@@ -614,7 +614,7 @@ typedef struct tspace_Triangulation {
 tspace_ErrorCode tspace_triangulate(const tspace_Mesh* mesh, tspace_Triangulation** result,
                                     tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Frees a result of tspace_triangulate. Null is allowed. */
+/* In C: frees a result of tspace_triangulate. Null is allowed. */
 void tspace_destroyTriangulation(tspace_Triangulation* result) TSPACE_NOEXCEPT;
 
 /* == frame.h ==
@@ -637,7 +637,9 @@ typedef struct tspace_Vec4 {
 
 /* T, B and N in object space: the columns of the matrix from tangent space to object space. */
 typedef struct tspace_Frame {
-    tspace_Vec3 tangent, bitangent, normal;
+    tspace_Vec3 tangent;
+    tspace_Vec3 bitangent;
+    tspace_Vec3 normal;
 } tspace_Frame;
 
 /* Row-major 3x3 matrix. */
@@ -967,7 +969,7 @@ tspace_ErrorCode tspace_splitVertices(const tspace_Indices* indices, size_t vert
                                       const tspace_Execution* execution, tspace_SplitResult** result,
                                       tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Frees a result of tspace_splitVertices. Null is allowed. */
+/* In C: frees a result of tspace_splitVertices. Null is allowed. */
 void tspace_destroySplitResult(tspace_SplitResult* result) TSPACE_NOEXCEPT;
 
 /* Options of tspace_makeIndexedFrames. */
@@ -1036,7 +1038,7 @@ tspace_ErrorCode tspace_makeIndexedFrames(const tspace_Mesh* mesh, const tspace_
                                           const tspace_Execution* execution, tspace_IndexedFrames** frames,
                                           tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Frees a result of tspace_makeIndexedFrames. Null is allowed. */
+/* In C: frees a result of tspace_makeIndexedFrames. Null is allowed. */
 void tspace_destroyIndexedFrames(tspace_IndexedFrames* frames) TSPACE_NOEXCEPT;
 
 /* == plan_buffers.h ==
@@ -1094,7 +1096,7 @@ tspace_ErrorCode tspace_planBuffers(const tspace_TangentPlan* plan, const tspace
                                     const tspace_Execution* execution, tspace_PlanBuffers** buffers,
                                     tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* Frees a result of tspace_planBuffers. Null is allowed. */
+/* In C: frees a result of tspace_planBuffers. Null is allowed. */
 void tspace_destroyPlanBuffers(tspace_PlanBuffers* buffers) TSPACE_NOEXCEPT;
 
 /* == pack.h ==
@@ -1265,8 +1267,7 @@ tspace_ErrorCode tspace_mendWinding(const tspace_Mesh* mesh, const tspace_Windin
                                     size_t turned_count, const tspace_Execution* execution,
                                     tspace_WindingReport* report, tspace_Error* error) TSPACE_NOEXCEPT;
 
-/* == defaults == */
-/* For TSPACE_INIT: the defaults that are not zero. */
+/* For TSPACE_INIT: the defaults that are not zero. scripts/api writes the bodies of these functions. */
 static inline void tspace_setNoDefaults(void* object) { (void)object; }
 static inline void tspace_setTangentDefaults(tspace_TangentOptions* options) {
     options->angular_threshold_deg = 180.0f;

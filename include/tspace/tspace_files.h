@@ -29,16 +29,18 @@
 extern "C" {
 #endif
 
-/* Bytes allocated by the library. A terminating 0, not counted in `size`, follows: a report is also a C string. */
+/* In C: bytes allocated by the library. A terminating 0, not counted in `size`, follows: a report is also a C
+ * string. */
 typedef struct tspace_Bytes {
     uint8_t* data;
     size_t size;
 } tspace_Bytes;
 
-/* Frees bytes that a function of this header returned, and sets them to empty. Null and empty bytes are allowed. */
+/* In C: frees bytes that a function of this header returned, and sets them to empty. Null and empty bytes are
+ * allowed. */
 void tspace_destroyBytes(tspace_Bytes* bytes) TSPACE_NOEXCEPT;
 
-/* Provides a file that a model refers to.
+/* In C: provides a file that a model refers to.
  * user        tspace_Model.user
  * path        path relative to the model: URI escapes decoded, with slashes, zero-terminated. Never a URL, and never a
  *             path outside the model's folder unless the option "allow-external" is set
@@ -48,7 +50,7 @@ void tspace_destroyBytes(tspace_Bytes* bytes) TSPACE_NOEXCEPT;
  * call, possibly repeatedly for one file. */
 typedef tspace_ErrorCode (*tspace_FindFile)(void* user, const char* path, const uint8_t** data, size_t* size);
 
-/* A model in memory. */
+/* In C: a model in memory. */
 typedef struct tspace_Model {
     uint32_t struct_size;
     uint32_t reserved;   /* 0 */
@@ -67,7 +69,7 @@ typedef struct tspace_Model {
  * In C: options of `tspace generate`, report tspace.generate/1. */
 tspace_ErrorCode tspace_generateFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
                                      tspace_Error* error) TSPACE_NOEXCEPT;
-/* Like tspace_generateFile, in memory.
+/* In C: like tspace_generateFile, in memory.
  * output    a self-contained GLB. Free it with tspace_destroyBytes. Empty after an error, and with the option
  *           "dry-run" */
 tspace_ErrorCode tspace_generateBytes(const tspace_Model* model, const char* options, tspace_Bytes* output,
@@ -81,6 +83,7 @@ tspace_ErrorCode tspace_generateBytes(const tspace_Model* model, const char* opt
  * In C: options of `tspace check`, report tspace.check/1. */
 tspace_ErrorCode tspace_checkFile(const char* input, const char* options, tspace_Bytes* report,
                                   tspace_Error* error) TSPACE_NOEXCEPT;
+/* In C: like tspace_checkFile, in memory. */
 tspace_ErrorCode tspace_checkBytes(const tspace_Model* model, const char* options, tspace_Bytes* report,
                                    tspace_Error* error) TSPACE_NOEXCEPT;
 
@@ -88,6 +91,7 @@ tspace_ErrorCode tspace_checkBytes(const tspace_Model* model, const char* option
  * In C: options of `tspace inspect`, report tspace.inspect/1. */
 tspace_ErrorCode tspace_inspectFile(const char* input, const char* options, tspace_Bytes* report,
                                     tspace_Error* error) TSPACE_NOEXCEPT;
+/* In C: like tspace_inspectFile, in memory. */
 tspace_ErrorCode tspace_inspectBytes(const tspace_Model* model, const char* options, tspace_Bytes* report,
                                      tspace_Error* error) TSPACE_NOEXCEPT;
 
@@ -100,6 +104,7 @@ tspace_ErrorCode tspace_inspectBytes(const tspace_Model* model, const char* opti
  * In C: options of `tspace identify`, report tspace.identify/1. */
 tspace_ErrorCode tspace_identifyFile(const char* input, const char* options, tspace_Bytes* report,
                                      tspace_Error* error) TSPACE_NOEXCEPT;
+/* In C: like tspace_identifyFile, in memory. */
 tspace_ErrorCode tspace_identifyBytes(const tspace_Model* model, const char* options, tspace_Bytes* report,
                                       tspace_Error* error) TSPACE_NOEXCEPT;
 
@@ -114,6 +119,7 @@ tspace_ErrorCode tspace_identifyBytes(const tspace_Model* model, const char* opt
  * In C: options of `tspace diff`, report tspace.diff/1. */
 tspace_ErrorCode tspace_diffFiles(const char* a, const char* b, const char* options, tspace_Bytes* report,
                                   tspace_Error* error) TSPACE_NOEXCEPT;
+/* In C: like tspace_diffFiles, in memory. */
 tspace_ErrorCode tspace_diffBytes(const tspace_Model* a, const tspace_Model* b, const char* options,
                                   tspace_Bytes* report, tspace_Error* error) TSPACE_NOEXCEPT;
 
@@ -169,8 +175,8 @@ tspace_ErrorCode tspace_heightToNormalFile(const char* input, const char* output
  * In C: options of `tspace compress-map`, report tspace.compress-map/1. */
 tspace_ErrorCode tspace_compressMapFile(const char* input, const char* output, const char* options,
                                         tspace_Bytes* report, tspace_Error* error) TSPACE_NOEXCEPT;
-/* Like tspace_compressMapFile, from the bytes of an image to the bytes of a KTX2, without roughness. Free `output` with
- * tspace_destroyBytes; it is empty after an error, and with the option "dry-run". */
+/* In C: like tspace_compressMapFile, from the bytes of an image to the bytes of a KTX2, without roughness. Free
+ * `output` with tspace_destroyBytes; it is empty after an error, and with the option "dry-run". */
 tspace_ErrorCode tspace_compressMapBytes(const uint8_t* data, size_t size, const char* options, tspace_Bytes* output,
                                          tspace_Bytes* report, tspace_Error* error) TSPACE_NOEXCEPT;
 

@@ -1,19 +1,11 @@
 # SPDX-License-Identifier: MIT
 """C++: conversions between structs of the C API and their C++ counterparts, and checks that both have the same values
 (c_fields.h)."""
-
-HEAD = """\
-// SPDX-License-Identifier: MIT
-// Conversion of the fields of C structs to and from their C++ counterparts. Written by scripts/api. Fields that are not
-// single numbers are converted where the struct is converted.
-#pragma once
-
-#include "core/c_api/c_convert.h"
-"""
+from names import snake
 
 
-def fields(headers):
-    pairs, structs = headers.pairs, {}
+def fields(pairs):
+    structs = {}
     lines = []
     for full, entity in pairs.twin.items():
         owner, _, field = full.partition(".")
@@ -24,8 +16,6 @@ def fields(headers):
         elif field and pairs.is_sized(owner):
             structs.setdefault(owner, []).append((field, entity))
     largest = {entity.owner: full for full, entity in pairs.twin.items() if entity.kind == "enumerator"}
-    used = [structs[owner][0][1].header for owner in structs if owner.endswith(("Options", "Report", "Noise"))]
-    head = [HEAD, *(f'#include "tspace/{name}"' for name in sorted(set(used))), "", "namespace tspace::c_api {", ""]
     for owner, members in structs.items():
         twin = owner.removeprefix("tspace_")
         if owner.endswith(("Report", "Noise")):
@@ -38,55 +28,40 @@ def fields(headers):
                       "/// Returns an error for the first enumerator or flag that exceeds its largest value, or ok.",
                       f"inline Error checkFields(const {owner}& options) {{",
                       f"    return firstError({(',' + chr(10) + 22 * ' ').join(_checks(members, largest))});", "}"]
-    return "\n".join([*head, *lines, "", "}  // namespace tspace::c_api", ""])
+    return [*lines, "", "}  // namespace tspace::c_api"]
 
 
 def _from_cpp(entity):
-    name = entity.name.rpartition("::")[2]
-    return f"{name}()" if entity.kind == "method" else f"{name} ? 1 : 0" if entity.type == "bool" else name
+    name = entity.member()
+    return f"{name}()" if entity.kind == "method" else f"{name} ? 1 : 0" if entity.type() == "bool" else name
 
 
 def _kind(entity, enums):
     """Returns the C++ expression for the value of a field, or "" if the field is not a single number."""
     known = {"bool": "{} != 0", "Convention": "toConvention({})", "float": "{}", "std::uint32_t": "{}"}
-    return f"static_cast<{entity.type}>({{}})" if entity.type in enums else known.get(entity.type, "")
+    return f"static_cast<{entity.type()}>({{}})" if entity.type() in enums else known.get(entity.type(), "")
 
 
 def _checks(members, largest):
     for field, entity in members:
-        if entity.type == "Convention":
+        if entity.type() == "Convention":
             yield f"[&] {{ return checkConvention(options.{field}); }}"
-        elif entity.type == "bool" or entity.type in largest:
-            yield f'[&] {{ return checkChoice(options.{field}, {largest.get(entity.type, 1)}, "{field}"); }}'
-
-
-VISITORS = """\
-// SPDX-License-Identifier: MIT
-// Names of enumerators, and of the numbers in sized structs, for tests that are driven by tables. Written by scripts/api.
-#pragma once
-
-#include <map>
-#include <string>
-#include <vector>
-
-#include "tspace/tspace.h"
-
-namespace tspace::test {
-
-/// The numbers of enumerators, by type and name.
-inline const std::map<std::string, std::map<std::string, double>> kEnumerators = {"""
+        elif entity.type() == "bool" or entity.type() in largest:
+            yield f'[&] {{ return checkChoice(options.{field}, {largest.get(entity.type(), 1)}, "{field}"); }}'
 
 
 def visitors(model):
     """Generates functions that call visit(name, type, value) for each number in a struct."""
-    lines = [VISITORS]
-    for name, values in model.enums.items():
-        lines.append(f'{{"{name}", {{{", ".join(f"{{{chr(34)}{value.lower()}{chr(34)}, {number}}}" for value, number in values.items())}}}}},')
+    lines = ["/// The numbers of enumerators, by type and name.",
+             "inline const std::map<std::string, std::map<std::string, double>> kEnumerators = {"]
+    for name, choices in model.enums.items():
+        numbers = ", ".join(f'{{"{snake(entity.member())}", {entity.value()}}}' for entity in choices)
+        lines.append(f'{{"{name}", {{{numbers}}}}},')
     lines.append("};")
     for struct, fields in model.structs.items():
-        numbers = [(name, kind.name) for name, kind in fields if kind.is_number() and name not in ("struct_size", "reserved", "code")
+        numbers = [(name, kind.name) for name, kind in fields.items() if kind.is_number() and name not in ("struct_size", "reserved", "code")
                    and (kind.name in model.enums or model.is_sized(struct) and kind.name in ("uint32_t", "uint64_t", "float", "double"))]
         if numbers:
             lines += ["", "template <class Visit>", f"void visitFields(tspace_{struct}& all, Visit visit) {{",
                       *(f'    visit("{name}", "{kind}", all.{name});' for name, kind in numbers), "}"]
-    return "\n".join([*lines, "", "}  // namespace tspace::test", ""])
+    return [*lines, "", "}  // namespace tspace::test"]

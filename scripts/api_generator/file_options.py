@@ -3,43 +3,29 @@
 options."""
 import ast
 import re
-import textwrap
 
+from mirrors import js_comment, js_list
 from names import camel
 
 PATHS = ("match",)  # options whose value is a name or a path
 # Options that the JavaScript module lacks, because it has no threads, disks or importers, and does not copy maps.
 NOT_IN_JS = ("threads", "no-sync", "import-seconds", "convert-maps")
 JS_CALLS = ("generate", "check", "inspect", "identify", "diff")
-PYI = '''\
-# SPDX-License-Identifier: MIT
-"""The functions of files as type checkers see them: with each option by its name. Written by scripts/api; at run time they are
-those of _files.py."""
 
-from typing import Literal, Optional, Sequence, Union
 
-from ._file_reports import BakeReport, DiffReport, FinishReport, InspectReport
-from ._files import BytesLike, CheckReport, FindFile, Generated, IdentifyReport, PathLike
-from ._generate_report import GenerateReport
-from ._map_reports import CompressMapReport, ConvertMapReport, FlipGreenReport, HeightToNormalReport
-from ._names import FrameFormatName, MethodName, PairingName, PresetName
-from ._types import DegreesOrAuto
-
-Size = Union[int, str]
-'''
+def name_of(option):
+    return option["name"].replace("-", "_")
 
 
 def python_name(option):
-    name = option["name"].replace("-", "_")
-    return f"{name}_" if name == "from" else name
+    return name_of(option) + "_" * (option["name"] == "from")
 
 
 def python_names(options):
-    lines = ["# SPDX-License-Identifier: MIT", '"""Options of each call on files, by the name in its C functions. Written by scripts/api."""',
-             "", "OPTIONS = {"]
+    lines = ["OPTIONS = {"]
     for call, taken in options.items():
         lines += [f'    "{call}": (', *(f'        "{python_name(option)}",' for option in taken), "    ),"]
-    return "\n".join([*lines, "}", ""])
+    return [*lines, "}"]
 
 
 def choices_of(option):
@@ -55,10 +41,7 @@ def python_type(option, aliases):
         return "PathLike"
     if choices:
         quoted = [choice if choice.isdigit() else f'"{choice}"' for choice in choices]
-        more = [choice for choice in choices if choice not in aliases["PresetName"]]
         named = next((name for name, values in aliases.items() if set(values) == set(choices)), "")
-        if not named and len(more) == 1 and len(choices) > 2:
-            named = f'Union[PresetName, Literal["{more[0]}"]]'
         kind = named or f"Literal[{', '.join(quoted)}]"
         return f"Union[str, Sequence[{kind if len(choices) < 20 else 'str'}]]" if option["list"] else kind
     if not takes or "text" in takes:
@@ -69,7 +52,7 @@ def python_type(option, aliases):
 
 
 def pyi(options, source, aliases):
-    lines = [PYI]
+    lines = []
     for function in (node for node in ast.parse(source).body if isinstance(node, ast.FunctionDef)):
         if function.args.kwarg is None or function.name.startswith("_"):
             continue
@@ -80,7 +63,7 @@ def pyi(options, source, aliases):
         lines += [f"    {argument.arg}: {ast.unparse(argument.annotation)} = ...," for argument in function.args.kwonlyargs]
         lines += [f"    {python_name(option)}: {python_type(option, aliases)} = ...," for option in options[call]]
         lines.append(f") -> {ast.unparse(function.returns)}: ...")
-    return "\n".join([*lines, ""])
+    return lines
 
 
 def js_options(options, call):
@@ -89,12 +72,10 @@ def js_options(options, call):
 
 
 def js_names(options):
-    lines = ["// SPDX-License-Identifier: MIT", "// Names of the options of each call on files; those of inspect are those of all. Written by scripts/api.",
-             "export const optionNames = {"]
+    lines = ["export const optionNames = {"]
     for call in JS_CALLS:
-        names = ", ".join(f'"{camel(option["name"].replace("-", "_"))}"' for option in js_options(options, call)) + ","
-        lines += [f"  {call}: [", *textwrap.wrap(names, 116, initial_indent="    ", subsequent_indent="    "), "  ],"]
-    return "\n".join([*lines, "};", ""])
+        lines += [f"  {call}: [", *js_list([camel(name_of(option)) for option in js_options(options, call)], "    "), "  ],"]
+    return [*lines, "};"]
 
 
 def js_type(option):
@@ -109,7 +90,7 @@ def js_type(option):
 
 
 def js_types(options):
-    lines = ["// SPDX-License-Identifier: MIT", "// Options of calls on files, with the help of the tool. Written by scripts/api."]
+    lines = []
     for call in JS_CALLS:
         name = "File" if call == "inspect" else call.capitalize()
         lines += ["", f"export interface {name}{'Options' if call == 'inspect' else 'FileOptions'} {{"]
@@ -117,8 +98,6 @@ def js_types(options):
             text = re.sub(r"--([a-z][a-z-]+)", lambda found: f"`{camel(found[1].replace('-', '_'))}`", option["help"])
             if option["default"]:
                 text += f" Default: {option['default']}."
-            wrapped = textwrap.wrap(text, 116)
-            lines += [f"  /** {wrapped[0]} */"] if len(wrapped) == 1 else ["  /**", *(f"   * {line}" for line in wrapped), "   */"]
-            lines.append(f"  {camel(option['name'].replace('-', '_'))}?: {js_type(option)};")
+            lines += [*js_comment(text, "  ", 116), f"  {camel(name_of(option))}?: {js_type(option)};"]
         lines.append("}")
-    return "\n".join([*lines, ""])
+    return lines

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Choices, with the numbers of the C API. Written by scripts/api.
+// Choices, with the numbers of the C API.
 namespace Tspace
 {
+    // Everything below is written by scripts/api.
     /// <summary>Reason why a call failed. The numbers are stable, equal in C and C++, and never reused.</summary>
     public enum ErrorCode : uint
     {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The C API, as tspace.h declares it. Written by scripts/api. The library checks sizes of sized structs: a layout that differs
-// is an error of every call.
+// The C API, as tspace.h declares it. The library checks sizes of sized structs: a layout that differs is an error of
+// every call.
 using System;
 using System.Runtime.InteropServices;
 
@@ -10,6 +10,8 @@ namespace Tspace
     {
         // libtspace.so, tspace.dll, libtspace.dylib.
         private const string Library = "tspace";
+
+        // Everything below is written by scripts/api.
 
         [StructLayout(LayoutKind.Sequential)]
         internal partial struct Error

@@ -25,7 +25,7 @@ namespace Tspace
     {
         internal readonly Native.Convention Raw;
 
-        private Convention(Native.Convention raw) { Raw = raw; }
+        internal Convention(Native.Convention raw) { Raw = raw; }
 
         /// <summary>Returns a preset: "gltf", "opengl", "directx", "unreal", "unity", "blender" or "godot".</summary>
         public static unsafe Convention Preset(string name)
@@ -49,9 +49,25 @@ namespace Tspace
 
     public sealed partial class TangentOptions
     {
+        private Native.TangentOptions fields = Prepared();
+
+        /// <summary>Number of threads; int.MaxValue: one per core. Results have the same bits for any
+        /// number.</summary>
+        public int Threads { get; set; } = 1;
+
+        public TangentOptions(Convention convention) { Convention = convention; }
+
+        private static unsafe Native.TangentOptions Prepared()
+        {
+            Native.TangentOptions raw;
+            Native.Error error;
+            Native.Check(Native.tspace_initTangentOptions(&raw, (uint)sizeof(Native.TangentOptions), &error), ref error);
+            return raw;
+        }
+
         internal Native.TangentOptions Raw()
         {
-            Native.TangentOptions raw = Fields();
+            Native.TangentOptions raw = fields;
             // The C API rejects zero for both as uninitialized; no method uses both.
             if (AngularThresholdDeg == 0 && Refine == 0)
             {
@@ -74,12 +90,35 @@ namespace Tspace
 
     public sealed partial class NormalOptions
     {
+        private Native.NormalOptions fields = Prepared();
+
+        /// <summary>Number of threads; int.MaxValue: one per core. Results have the same bits for any
+        /// number.</summary>
+        public int Threads { get; set; } = 1;
+
+        public NormalOptions(Convention convention) { Convention = convention; }
+
+        private static unsafe Native.NormalOptions Prepared()
+        {
+            Native.NormalOptions raw;
+            Native.Error error;
+            Native.Check(Native.tspace_initNormalOptions(&raw, (uint)sizeof(Native.NormalOptions), &error), ref error);
+            return raw;
+        }
+
         internal Native.NormalOptions Raw()
         {
-            Native.NormalOptions raw = Fields();
+            Native.NormalOptions raw = fields;
             // The C API rejects all-zero options as uninitialized; Flat, which is 0, does not use this option.
             if (Weighting == NormalWeighting.Flat && Refine == 0) raw.Refine = 1;
             return raw;
         }
+    }
+
+    public readonly partial struct TangentReport
+    {
+        private readonly Native.TangentReport fields;
+
+        internal TangentReport(in Native.TangentReport raw) { fields = raw; }
     }
 }

@@ -157,7 +157,7 @@ internal static class Cases
 
     private static Members Fields(TangentReport report)
     {
-        return typeof(TangentReport).GetFields().ToDictionary(field => Snake(field.Name), field => (object)Convert.ToDouble(field.GetValue(report)));
+        return typeof(TangentReport).GetProperties().ToDictionary(field => Snake(field.Name), field => (object)Convert.ToDouble(field.GetValue(report)));
     }
 
     private static bool Same(object got, object wanted)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Reports of calls. Written by scripts/api.
+// Reports of calls.
+
+// Everything below is written by scripts/api.
 
 /** Counts of triangles, groups and defects of the input. Invalid geometry never makes a call fail. */
 export interface TangentReport {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Options of calls on files, with the help of the tool. Written by scripts/api.
+// Options of calls on files, with the help of the tool.
+
+// Everything below is written by scripts/api.
 
 export interface GenerateFileOptions {
   /** Report what would be written, and all problems, without writing anything. */

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Names of the options of each call on files; those of inspect are those of all. Written by scripts/api.
+// Names of the options of each call on files; those of inspect are those of all.
+
+// Everything below is written by scripts/api.
 export const optionNames = {
   generate: [
     "dryRun", "compress", "keepCoordinates", "all", "onlyMissing", "overwrite", "repair", "strip",

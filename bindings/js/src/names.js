@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Names of choices, and of numbers of reports. Written by scripts/api.
+// Names of choices, and of numbers of reports.
+
+// Everything below is written by scripts/api.
 export const methodNames = [
   "mikktspace", "lengyel", "uniform", "angle", "area", "flat", "basis", "fast", "best",
 ];

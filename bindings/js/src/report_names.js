@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Names of choices, and of numbers of reports. Written by scripts/api.
+// Names of choices, and of numbers of reports.
+
+// Everything below is written by scripts/api.
 export const packReportNames = [
   "badNormalCount", "notFiniteCount", "zeroCount", "parallelCount", "notUnitCount", "notOrthogonalCount",
   "badSignCount", "mendedCount",

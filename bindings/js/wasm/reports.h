@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Stores the numbers of reports for JavaScript, in the order of their names in names.js. Each function starts at index
-// `first`, and returns the index after its last number. Written by scripts/api.
+// `first`, and returns the index after its last number.
 #pragma once
 
 #include "exports.h"
@@ -8,6 +8,7 @@
 
 namespace tspace::js {
 
+// Everything below is written by scripts/api.
 inline std::size_t keep(const TangentReport& from, std::size_t first = 0) {
     static constexpr std::uint64_t TangentReport::*kCounts[] = {
         &TangentReport::triangle_count,       &TangentReport::degenerate_triangle_count,

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-//! Choices, with the numbers of the C API. Written by scripts/api.
+//! Choices, with the numbers of the C API.
+
+// Everything below is written by scripts/api.
 
 /// Method of computing tangents. `docs/concepts/methods/` has a page for each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

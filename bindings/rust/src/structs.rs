@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-//! Options and reports, with the fields of the C API. Written by scripts/api.
+//! Options and reports, with the fields of the C API.
 
 use crate::enums::*;
 use crate::options::{prepared, Convention, Execution};
 use crate::sys;
+
+// Everything below is written by scripts/api.
 
 /// Options of generateTangents: first those for all methods, then those of a single method, which others ignore.
 /// [`TangentOptions::new`] sets the defaults.

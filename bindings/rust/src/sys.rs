@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
-//! The C API, as `tspace.h` declares it. Written by scripts/api. Sized structs are checked by the library: a layout that
-//! differs is an error of every call, and `tests/` compares the sizes.
+//! The C API, as `tspace.h` declares it. Sized structs are checked by the library: a layout that differs is an error of
+//! every call, and `tests/` compares the sizes.
 #![allow(dead_code)]
 
 use std::os::raw::{c_char, c_void};
 
+/// The function that prepares a sized struct.
+pub type Init<Struct> = unsafe extern "C" fn(*mut Struct, u32, *mut Error) -> u32;
+
+// Everything below is written by scripts/api.
 pub const NO_ELEMENT: u64 = 0xffffffffffffffff;
 pub const MAX_CORNERS: u32 = 0x7fffffff;
 pub const ALL_THREADS: u32 = 0xffffffff;
@@ -497,9 +501,6 @@ pub struct Arena {
 pub struct TangentPlan {
     _private: [u8; 0],
 }
-
-/// The function that prepares a sized struct.
-pub type Init<Struct> = unsafe extern "C" fn(*mut Struct, u32, *mut Error) -> u32;
 
 extern "C" {
     pub fn tspace_version() -> u32;

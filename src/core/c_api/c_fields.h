@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Conversion of the fields of C structs to and from their C++ counterparts. Written by scripts/api. Fields that are not
-// single numbers are converted where the struct is converted.
+// Conversion of the fields of C structs to and from their C++ counterparts. Fields that are not single numbers are
+// converted where the struct is converted.
 #pragma once
 
 #include "core/c_api/c_convert.h"
@@ -14,6 +14,7 @@
 
 namespace tspace::c_api {
 
+// Everything below is written by scripts/api.
 static_assert(TSPACE_OK == static_cast<std::uint32_t>(ErrorCode::ok));
 static_assert(TSPACE_ERROR_NULL_DATA == static_cast<std::uint32_t>(ErrorCode::nullData));
 static_assert(TSPACE_ERROR_COUNT_MISMATCH == static_cast<std::uint32_t>(ErrorCode::countMismatch));

@@ -21,7 +21,7 @@ fail() {
 finds() {
     rm -rf "$folder"/*
     cp -r include scripts "$folder"
-    for made in src/core/c_api tests/core/c_api bindings/python/src/tspace bindings/{rust,csharp,js}/src; do
+    for made in src/core/c_api tests/core/c_api bindings/python/src/tspace bindings/{rust,csharp,js}/src bindings/js/wasm; do
         mkdir -p "$folder/$made" && cp -r "$made/." "$folder/$made"
     done
     sed -i "s|$3|$4|" "$folder/include/tspace/$2"

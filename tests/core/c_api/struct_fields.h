@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names of enumerators, and of the numbers in sized structs, for tests that are driven by tables. Written by scripts/api.
+// Names of enumerators, and of the numbers in sized structs, for tests that are driven by tables.
 #pragma once
 
 #include <map>
@@ -10,6 +10,7 @@
 
 namespace tspace::test {
 
+// Everything below is written by scripts/api.
 /// The numbers of enumerators, by type and name.
 inline const std::map<std::string, std::map<std::string, double>> kEnumerators = {
     {"ErrorCode",

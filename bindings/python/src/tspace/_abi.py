@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The C API of tspace, as ctypes: structs, numbers of enumerations, functions. Written by scripts/api.
+"""The C API of tspace, as ctypes: structs, numbers of enumerations, functions.
 
 ctypes releases the global interpreter lock during each call.
 """
@@ -9,6 +9,7 @@ from ctypes import c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint3
 
 from ._library import declare, load
 
+# Everything below is written by scripts/api.
 ERROR_CODES = {
     "ok": 0,
     "null_data": 1,

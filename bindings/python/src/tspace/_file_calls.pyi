@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The functions of files as type checkers see them: with each option by its name. Written by scripts/api; at run time they are
-those of _files.py."""
+"""The functions of files as type checkers see them: with each option by its name. At run time they are those of _files.py."""
 
 from typing import Literal, Optional, Sequence, Union
 
@@ -13,6 +12,7 @@ from ._types import DegreesOrAuto
 
 Size = Union[int, str]
 
+# Everything below is written by scripts/api.
 def generate_file(
     input: PathLike,
     output: PathLike,
@@ -180,8 +180,8 @@ def convert_map_file(
     from_: Literal["tangent", "object", "world"] = ...,
     to: Literal["tangent", "object", "world"] = ...,
     axes: str = ...,
-    from_convention: Union[PresetName, Literal["three"]] = ...,
-    to_convention: Union[PresetName, Literal["three"]] = ...,
+    from_convention: Literal["gltf", "opengl", "directx", "unreal", "unity", "blender", "godot", "three"] = ...,
+    to_convention: Literal["gltf", "opengl", "directx", "unreal", "unity", "blender", "godot", "three"] = ...,
     from_bitangent: Literal["pixel", "vertex"] = ...,
     to_bitangent: Literal["pixel", "vertex"] = ...,
     channels: str = ...,
@@ -213,7 +213,7 @@ def height_to_normal_file(
     dry_run: bool = ...,
     allow_external: bool = ...,
     clamp: bool = ...,
-    convention: Union[PresetName, Literal["three"]] = ...,
+    convention: Literal["gltf", "opengl", "directx", "unreal", "unity", "blender", "godot", "three"] = ...,
     bits: Literal[8, 16] = ...,
     method: MethodName = ...,
     threads: int = ...,
@@ -290,7 +290,7 @@ def bake_file(
     bits: Literal[8, 16] = ...,
     space: Literal["tangent", "object"] = ...,
     axes: str = ...,
-    convention: Union[PresetName, Literal["three"]] = ...,
+    convention: Literal["gltf", "opengl", "directx", "unreal", "unity", "blender", "godot", "three"] = ...,
     unit: bool = ...,
     fit: Literal["solve", "texel"] = ...,
     lengths: Literal["even", "free"] = ...,

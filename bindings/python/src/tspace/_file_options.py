@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Options of each call on files, by the name in its C functions. Written by scripts/api."""
+"""Options of each call on files, by the name in its C functions."""
 
+# Everything below is written by scripts/api.
 OPTIONS = {
     "generate": (
         "dry_run",

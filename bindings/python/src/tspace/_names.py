@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Names of choices, for type checkers. Written by scripts/api."""
+"""Names of choices, for type checkers."""
 
 from typing import Literal
 
+# Everything below is written by scripts/api.
 ErrorCodeName = Literal[
     "ok",
     "null_data",

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Reports of functions, as named tuples. Written by scripts/api."""
+"""Reports of functions, as named tuples."""
 
 from typing import NamedTuple
+
+# Everything below is written by scripts/api.
 
 
 class TangentReport(NamedTuple):
