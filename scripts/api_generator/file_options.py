@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Options of calls on files: their names in Python and JavaScript, and their types for type checkers, from the table of
-options."""
+options. Also the types of Python's calls on arrays."""
 import ast
 import re
 
@@ -51,18 +51,40 @@ def python_type(option, aliases):
     return "int" if takes == ["1"] else "Size"
 
 
-def pyi(options, source, aliases):
+def parameters(function):
+    """Returns the parameters of a Python function, one per line, with `...` for each default."""
+    given = function.args
+    given.defaults = [ast.Constant(...)] * len(given.defaults)
+    given.kw_defaults = [default and ast.Constant(...) for default in given.kw_defaults]
+    given.kwarg = None
+    return [f"    {each.replace('=...', ' = ...')}," for each in re.split(r", (?![^[]*\])", ast.unparse(given))]
+
+
+def functions(source):
+    return [node for node in ast.parse(source).body if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")]
+
+
+def python_file_calls(options, source, aliases):
     lines = []
-    for function in (node for node in ast.parse(source).body if isinstance(node, ast.FunctionDef)):
-        if function.args.kwarg is None or function.name.startswith("_"):
-            continue
-        call = camel(re.sub("_(file|bytes)$", "", function.name))
-        lines.append(f"def {function.name}(")
-        lines += [f"    {argument.arg}: {ast.unparse(argument.annotation)}," for argument in function.args.args]
-        lines.append("    *,")
-        lines += [f"    {argument.arg}: {ast.unparse(argument.annotation)} = ...," for argument in function.args.kwonlyargs]
-        lines += [f"    {python_name(option)}: {python_type(option, aliases)} = ...," for option in options[call]]
-        lines.append(f") -> {ast.unparse(function.returns)}: ...")
+    for function in functions(source):
+        if function.args.kwarg is not None:
+            call = camel(re.sub("_(file|bytes)$", "", function.name))
+            lines += [f"def {function.name}(", *parameters(function), *([] if function.args.kwonlyargs else ["    *,"]),
+                      *(f"    {python_name(option)}: {python_type(option, aliases)} = ...," for option in options[call]),
+                      f") -> {ast.unparse(function.returns)}: ..."]
+    return lines
+
+
+def python_array_calls(*sources):
+    """Returns functions of arrays as type checkers see them: what they return depends on their argument `full`."""
+    lines = []
+    for function in sum(map(functions, sources), []):
+        full = next((each for each in function.args.kwonlyargs if each.arg == "full"), None)
+        for choice, returned in zip((False, True), function.returns.slice.elts if full else ()):
+            full.annotation = ast.parse(f"Literal[{choice}]").body[0].value
+            lines += ["", "", "@overload", f"def {function.name}(", *parameters(function), f") -> {ast.unparse(returned)}:",
+                      "    ..." if choice else f'    """{ast.get_docstring(function, clean=False)}"""']
+            function.args.kw_defaults[function.args.kwonlyargs.index(full)] = None
     return lines
 
 

@@ -101,20 +101,21 @@ from ._files import (
     Report,
 )
 from ._indexed import IndexedFrames, IndexedFramesReport, make_indexed_frames
-from ._normals import NormalResult, normals, position_noise
+from ._normals import NormalResult, position_noise
 from ._options import Convention
-from ._pack import PackResult, pack_frames, unpack_frames
+from ._pack import PackResult, unpack_frames
 from ._plan_buffers import PlanBuffers, plan_buffers
 from ._reports import NormalReport, PackReport, PositionNoise, SanitizeReport, TangentReport, WindingReport
 from ._remedies import remedy_text
-from ._sanitize import SanitizeResult, sanitize
+from ._sanitize import SanitizeResult
 from ._split import Split, Triangles, split, triangulate
-from ._tangents import MeshJob, Plan, TangentResult, tangents, tangents_of_meshes
+from ._tangents import MeshJob, Plan, TangentResult, tangents_of_meshes
 from ._winding import WindingResult, fix_winding, mend_winding
 
-# Type checkers see each option of the file functions; at run time an unknown option raises an error that lists the
-# valid ones.
+# Type checkers see that the results of functions of arrays depend on `full`. They also see each option of the file
+# functions; at run time an unknown option raises an error that lists the valid ones.
 if TYPE_CHECKING:
+    from ._array_calls import normals, pack_frames, sanitize, tangents
     from ._file_calls import (
         bake_file,
         check,
@@ -132,6 +133,10 @@ if TYPE_CHECKING:
         inspect,
     )
 else:
+    from ._normals import normals
+    from ._pack import pack_frames
+    from ._sanitize import sanitize
+    from ._tangents import tangents
     from ._files import (
         bake_file,
         check,

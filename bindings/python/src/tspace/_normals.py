@@ -3,7 +3,7 @@
 
 import ctypes
 from ctypes import byref
-from typing import Any, Literal, NamedTuple, Optional, Union, overload
+from typing import Any, NamedTuple, Optional, Union
 
 import numpy
 
@@ -51,50 +51,6 @@ def normal_options(
         real_or_auto("denoise", denoise),
         real_or_auto("weld_distance", weld_distance),
     )
-
-
-@overload
-def normals(
-    positions: Rows,
-    indices: Optional[Numbers] = ...,
-    *,
-    face_sizes: FaceSizes = ...,
-    weighting: NormalWeightingName = ...,
-    crease_angle: DegreesOrAuto = ...,
-    smoothing_groups: Optional[Numbers] = ...,
-    smoothing_groups_are_masks: bool = ...,
-    weld_positions: bool = ...,
-    convention: Optional[ConventionLike] = ...,
-    refine: int = ...,
-    denoise: DegreesOrAuto = ...,
-    weld_distance: DegreesOrAuto = ...,
-    threads: Threads = ...,
-    out: Optional[numpy.ndarray] = ...,
-    full: Literal[False] = ...,
-) -> FloatArray:
-    ...
-
-
-@overload
-def normals(
-    positions: Rows,
-    indices: Optional[Numbers] = ...,
-    *,
-    face_sizes: FaceSizes = ...,
-    weighting: NormalWeightingName = ...,
-    crease_angle: DegreesOrAuto = ...,
-    smoothing_groups: Optional[Numbers] = ...,
-    smoothing_groups_are_masks: bool = ...,
-    weld_positions: bool = ...,
-    convention: Optional[ConventionLike] = ...,
-    refine: int = ...,
-    denoise: DegreesOrAuto = ...,
-    weld_distance: DegreesOrAuto = ...,
-    threads: Threads = ...,
-    out: Optional[numpy.ndarray] = ...,
-    full: Literal[True],
-) -> NormalResult:
-    ...
 
 
 def normals(

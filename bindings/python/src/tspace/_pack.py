@@ -3,7 +3,7 @@
 
 import ctypes
 from ctypes import byref
-from typing import Any, Literal, NamedTuple, Tuple, Union, overload
+from typing import NamedTuple, Tuple, Union
 
 import numpy
 
@@ -22,16 +22,6 @@ class PackResult(NamedTuple):
 
     frames: ByteArray  #: (frames, bytes) uint8
     report: PackReport
-
-
-@overload
-def pack_frames(normals: Rows, tangents: Rows, format: FrameFormatName = ..., *, full: Literal[False] = ...) -> ByteArray:
-    ...
-
-
-@overload
-def pack_frames(normals: Rows, tangents: Rows, format: FrameFormatName = ..., *, full: Literal[True]) -> PackResult:
-    ...
 
 
 def pack_frames(

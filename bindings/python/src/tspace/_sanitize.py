@@ -3,7 +3,7 @@
 
 import ctypes
 from ctypes import byref
-from typing import Any, Literal, NamedTuple, Optional, Union, overload
+from typing import NamedTuple, Optional, Union
 
 import numpy
 
@@ -23,40 +23,6 @@ class SanitizeResult(NamedTuple):
 
     tangents: FloatArray  #: (corners, 4) float32
     report: SanitizeReport
-
-
-@overload
-def sanitize(
-    tangents: Rows,
-    positions: Rows,
-    normals: Rows,
-    indices: Optional[Numbers] = ...,
-    *,
-    face_sizes: FaceSizes = ...,
-    normal_indices: AttributeIndices = ...,
-    orthogonalize_all: bool = ...,
-    threads: Threads = ...,
-    out: Optional[numpy.ndarray] = ...,
-    full: Literal[False] = ...,
-) -> FloatArray:
-    ...
-
-
-@overload
-def sanitize(
-    tangents: Rows,
-    positions: Rows,
-    normals: Rows,
-    indices: Optional[Numbers] = ...,
-    *,
-    face_sizes: FaceSizes = ...,
-    normal_indices: AttributeIndices = ...,
-    orthogonalize_all: bool = ...,
-    threads: Threads = ...,
-    out: Optional[numpy.ndarray] = ...,
-    full: Literal[True],
-) -> SanitizeResult:
-    ...
 
 
 def sanitize(

@@ -114,58 +114,6 @@ def _full(arrays: Tuple[numpy.ndarray, ...], counts: _abi.TangentReport) -> Tang
     return TangentResult(tangents, bitangents, magnitudes_s, magnitudes_t, has_tangent, report(TangentReport, counts))
 
 
-@overload
-def tangents(
-    positions: Rows,
-    normals: Rows,
-    uvs: Optional[Rows],
-    indices: Optional[Numbers] = ...,
-    *,
-    face_sizes: FaceSizes = ...,
-    normal_indices: AttributeIndices = ...,
-    uv_indices: AttributeIndices = ...,
-    method: MethodName = ...,
-    convention: ConventionLike,
-    threshold: float = ...,
-    pairing: PairingName = ...,
-    ngons: NgonsName = ...,
-    domain: OutputDomainName = ...,
-    frame: FrameShapeName = ...,
-    refine: int = ...,
-    normalize_normals: bool = ...,
-    threads: Threads = ...,
-    out: Optional[numpy.ndarray] = ...,
-    full: Literal[False] = ...,
-) -> FloatArray:
-    ...
-
-
-@overload
-def tangents(
-    positions: Rows,
-    normals: Rows,
-    uvs: Optional[Rows],
-    indices: Optional[Numbers] = ...,
-    *,
-    face_sizes: FaceSizes = ...,
-    normal_indices: AttributeIndices = ...,
-    uv_indices: AttributeIndices = ...,
-    method: MethodName = ...,
-    convention: ConventionLike,
-    threshold: float = ...,
-    pairing: PairingName = ...,
-    ngons: NgonsName = ...,
-    domain: OutputDomainName = ...,
-    frame: FrameShapeName = ...,
-    refine: int = ...,
-    normalize_normals: bool = ...,
-    threads: Threads = ...,
-    out: Optional[numpy.ndarray] = ...,
-    full: Literal[True],
-) -> TangentResult:
-    ...
-
-
 def tangents(
     positions: Rows,
     normals: Rows,
