@@ -34,6 +34,7 @@ finds "+/* Method of computing tangents." tspace.h "Method of computing tangents
 finds "methodTitle has no twin in C" tangents.h "^const char\* methodName(.*" "&\nconst char* methodTitle(Method method);"
 finds "tspace_methodTitle has no twin in C++" tspace.h "^const char\* tspace_methodName(.*" "&\nconst char* tspace_methodTitle(tspace_Method method) TSPACE_NOEXCEPT;"
 finds "+    options->refine = 3" tangents.h "refine = 1" "refine = 3"
+finds "tspace_SanitizeOptions has defaults, and tspace.h has no function that sets them" tangents.h "orthogonalize_all = false" "orthogonalize_all = true"
 finds "+    TSPACE_METHOD_BETTER = 9" tangents.h "^    best = 8," "&\n    better = 9,"
 finds '+    "better": 9,' tangents.h "^    best = 8," "&\n    better = 9,"
 finds "+    uint64_t seam_count;" tangents.h "^    std::uint64_t group_count = 0;" "    std::uint64_t seam_count = 0;\n&"
