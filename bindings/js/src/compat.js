@@ -8,8 +8,8 @@ export { ready, release };
 export let isReady = false;
 ready.then(() => (isReady = true), () => {});
 
-/** npm's mikktspace accepts arrays of any number type. */
-const floats = (array) => (Array.isArray(array) || ArrayBuffer.isView(array) ? Float32Array.from(array) : array);
+/** npm's mikktspace accepts arrays of any number type, and objects like { length: 1, 0: 0.5 }. */
+const floats = (array) => (typeof array === "object" && array?.length >= 0 && Number.isInteger(array.length) ? Float32Array.from(array) : array);
 
 export const generateTangents = (positions, normals, uvs) =>
   generate({ positions: floats(positions), normals: floats(normals), uvs: floats(uvs) }, { convention: "opengl" });

@@ -47,16 +47,29 @@ function gathered(attribute, sources, shared) {
   return Object.assign(own, { name, usage: data.usage });
 }
 
+/** Returns 2 to the power of the number of value bits of an integer type; 0 for other types. */
+const rangeOf = (Type) => (/^(Ui|I)nt/.test(Type?.name) ? 2 ** (8 * Type.BYTES_PER_ELEMENT - (Type.name[0] === "I")) : 0);
+
 /**
  * Returns an index of the previous type, or of a wider type if necessary. The maximum of a type is not used as an
  * index.
  */
 function indexAttribute(given, indices, vertexCount) {
-  const types = [Uint8Array, Uint16Array, Uint32Array];
-  const least = given ? types.findIndex((Type) => Type.name === given.array.constructor.name) : 1;
-  const Type = types.slice(Math.max(least, 0)).find((Type) => vertexCount < 2 ** (8 * Type.BYTES_PER_ELEMENT));
+  const before = given?.array.constructor, narrow = rangeOf(before) > 0 && before.BYTES_PER_ELEMENT === 1 ? [Uint8Array] : [];
+  const Type = [before, ...narrow, Uint16Array, Uint32Array].find((Type) => vertexCount < rangeOf(Type));
   const array = Type.from(indices);
   return given ? withArray(given, array) : new BufferAttribute(array, 1);
+}
+
+/** Returns whether the type of an attribute can store unit vectors. */
+const storesUnitVectors = ({ array, normalized, isFloat16BufferAttribute }) =>
+  /^Float/.test(array.constructor.name) || isFloat16BufferAttribute || (normalized && /^Int/.test(array.constructor.name));
+
+/** Returns the normals as an attribute: the given one (of the new vertices) with new values, if its type permits this. */
+function normalAttribute(given, normals) {
+  if (!given || given.count !== normals.length / 3 || !storesUnitVectors(given)) return new BufferAttribute(normals, 3);
+  for (let i = 0; i < given.count; ++i) given.setXYZ(i, normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]);
+  return given;
 }
 
 /** Returns the geometry, or the geometry of a mesh. */
@@ -101,7 +114,7 @@ export function computeTangents(given, options = {}) {
   for (const [name, list] of Object.entries(geometry.morphAttributes))
     result.morphAttributes[name] = list.map((attribute) => gathered(attribute, sources, shared));
   result.setIndex(indexAttribute(geometry.index, made.indices, sources.length));
-  if (!normal || options.makeNormals) result.setAttribute("normal", new BufferAttribute(made.normals, 3));
+  if (!normal || options.makeNormals) result.setAttribute("normal", normalAttribute(result.attributes.normal, made.normals));
   result.setAttribute("tangent", new BufferAttribute(made.tangents, 4));
   return result;
 }

@@ -46,8 +46,20 @@ describe("the call of npm's mikktspace", () => {
     assert.equal(differences(compat.generateTangents(...unindexed), wanted), 0);
     assert.equal(differences(compat.generateTangents(...unindexed.map((array) => [...array])), wanted), 0);
     assert.equal(differences(compat.generateTangents(...unindexed.map((array) => Float64Array.from(array))), wanted), 0);
+    const listed = unindexed.map((array) => ({ length: array.length, ...array }));
+    assert.equal(differences(ofNpm(...listed), wanted), 0);
+    assert.equal(differences(compat.generateTangents(...listed), wanted), 0);
     assert.throws(() => compat.generateTangents([0, 0], [], []), { code: "countMismatch" });
+    for (const wrong of [new DataView(new ArrayBuffer(36)), {}, { length: -1 }, { length: 1.5 }, () => 0, 9, null])
+      assert.throws(() => compat.generateTangents(wrong, [], []), { code: wrong === null ? "missingAttribute" : "wrongType" });
     assert.throws(() => compat.generateTangents("positions", [], []), { name: "TypeError" });
+  });
+
+  it("gives an empty array for empty arrays, for which the package throws", { skip: absent(npm, "mikktspace") }, () => {
+    for (const empty of [[], new Float32Array(0)]) {
+      assert.throws(() => ofNpm(empty, empty, empty));
+      assert.deepEqual(compat.generateTangents(empty, empty, empty), new Float32Array(0));
+    }
   });
 
   it("works in three.js", { skip: absent(three, "three") }, async () => {
@@ -248,10 +260,18 @@ describe("computeTangents for three.js", { skip: absent(three, "three") }, () =>
     assert.equal(made.attributes.uv.getX(1), fromHalfFloat(box.attributes.uv.array[2]));
     assert.ok(made.morphAttributes.position[0].isFloat16BufferAttribute);
     assert.equal(made.boundingSphere.radius, 9);
-    for (const Type of [Uint8Array, Uint16Array, Uint32Array]) {
+    for (const Type of [Int8Array, Uint8Array, Uint8ClampedArray, Int16Array, Uint16Array, Int32Array, Uint32Array]) {
       box.setIndex(new three.BufferAttribute(Type.from(box.index.array), 1).setUsage(three.StreamDrawUsage));
       const { index } = computeTangents(box, { convention: "opengl" });
       assert.deepEqual([index.array.constructor, index.usage], [Type, three.StreamDrawUsage]);
+    }
+    const strips = new three.PlaneGeometry(1, 1, 16, 6); // 119 vertices; each inner column of faces mirrors its neighbors
+    strips.attributes.uv.array.forEach((u, i, all) => (all[i] = i % 2 === 0 ? (i / 2) % 17 % 2 : u));
+    for (const [Type, Wanted] of [[Int8Array, Uint8Array], [Uint8ClampedArray, Uint8ClampedArray], [Int16Array, Int16Array], [Float32Array, Uint16Array]]) {
+      strips.setIndex(new three.BufferAttribute(Type.from(strips.index.array), 1));
+      const made = computeTangents(strips, { convention: "opengl" });
+      assert.ok(made.attributes.position.count > 127 && made.attributes.position.count < 255);
+      assert.equal(made.index.array.constructor, Wanted);
     }
     assert.ok(computeTangents(box.toNonIndexed(), { convention: "opengl" }).index.array instanceof Uint16Array);
     const many = new three.PlaneGeometry(1, 1, 256, 254); // 65,535 vertices
@@ -260,6 +280,38 @@ describe("computeTangents for three.js", { skip: absent(three, "three") }, () =>
     assert.ok(many.index.array instanceof Uint16Array);
     const wide = computeTangents(many, { convention: "opengl" });
     assert.ok(wide.attributes.position.count > 65535 && wide.index.array instanceof Uint32Array);
+  });
+
+  it("stores computed normals in the type of the attribute if it can store them", async () => {
+    const { computeTangents } = await import("tspace/three");
+    const sphere = new three.SphereGeometry(1, 12, 8), { array, count } = sphere.attributes.normal;
+    const options = { convention: "opengl", makeNormals: true };
+    const exact = computeTangents(sphere, options).attributes.normal;
+    const toHalf = three.DataUtils.toHalfFloat, integers = (Type, most) => Type.from(array, (x) => Math.round(most * x));
+    const four = new Float32Array(4 * count).fill(9);
+    for (let i = 0; i < count; ++i) four.set(array.subarray(3 * i, 3 * i + 3), 4 * i);
+    const interleaved = new three.InterleavedBufferAttribute(new three.InterleavedBuffer(integers(Int8Array, 127), 3), 3, 0, true);
+    const kinds = [
+      [new three.Int8BufferAttribute(integers(Int8Array, 127), 3, true), 1 / 127], [new three.Int16BufferAttribute(integers(Int16Array, 32767), 3, true), 1 / 32767],
+      [new three.BufferAttribute(integers(Int32Array, 2147483647), 3, true), 1e-7], [new three.Float16BufferAttribute(Uint16Array.from(array, toHalf), 3), 1e-3],
+      [new three.BufferAttribute(Float64Array.from(array), 3), 0], [new three.Float32BufferAttribute(four, 4), 0], [interleaved, 1 / 127],
+    ];
+    for (const [normal, error] of kinds) {
+      Object.assign(normal, { name: "up" });
+      if (!normal.data) Object.assign(normal, { usage: three.DynamicDrawUsage, gpuType: three.IntType });
+      sphere.setAttribute("normal", normal);
+      const made = computeTangents(sphere, options).attributes.normal;
+      for (const member of normal.data ? ["normalized", "itemSize", "name"] : ["constructor", "normalized", "itemSize", "name", "usage", "gpuType"]) assert.equal(made[member], normal[member], member);
+      assert.equal(made.array.constructor, normal.array.constructor);
+      for (let i = 0; i < exact.count; ++i)
+        for (const get of ["getX", "getY", "getZ"]) assert.ok(Math.abs(made[get](i) - exact[get](i)) <= error, `${made.array.constructor.name} ${made[get](i)} ${exact[get](i)}`);
+      if (normal.itemSize === 4) assert.equal(made.getW(5), 9);
+    }
+    // unsigned integers, and integers that are not normalized, cannot store unit vectors
+    for (const normal of [new three.Uint8BufferAttribute(integers(Uint8Array, 255), 3, true), new three.Int8BufferAttribute(integers(Int8Array, 1), 3)]) {
+      sphere.setAttribute("normal", normal);
+      assert.deepEqual(computeTangents(sphere, options).attributes.normal.array, exact.array);
+    }
   });
 
   it("keeps instances, also interleaved ones", async () => {
@@ -283,5 +335,7 @@ describe("computeTangents for three.js", { skip: absent(three, "three") }, () =>
     const { computeTangents } = await import("tspace/three");
     assert.throws(() => computeTangents(new three.SphereGeometry(), {}), { code: "invalidOption" });
     assert.throws(() => computeTangents(new three.BufferGeometry(), { convention: "gltf" }), { code: "missingAttribute" });
+    for (const name of ["threshold", "method", "pairing", "makeNormals"])
+      assert.throws(() => computeTangents(new three.SphereGeometry(), { convention: "gltf", [name]: null }), ({ message }) => message.startsWith(`${name} must be`) && message.endsWith("not null"));
   });
 });
