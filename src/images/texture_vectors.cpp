@@ -8,7 +8,8 @@ namespace tspace {
 
 std::string takeChannels(const std::string& letters, MapLayout& layout) {
     constexpr const char* kWrong =
-        "must be two or three of r, g, b and a, such as rg, ag or bgr; a capital letter inverts a channel";
+        "must be two or three of r, g, b and a (or x, y, z and w), such as rg, ag or bgr; a capital letter inverts a "
+        "channel";
     constexpr std::string_view kLetters = "rgbaRGBAxyzwXYZW";
     if (letters.size() != 2 && letters.size() != 3) return kWrong;
     MapComponent* const components[] = {&layout.x, &layout.y, &layout.z};

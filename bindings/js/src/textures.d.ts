@@ -81,7 +81,7 @@ export interface MapPixels {
 export type MapImage = MapPixels | Uint8Array | ArrayBuffer;
 
 export interface ConvertMapOptions extends Unpackers {
-  /** Channels that hold x, y and z, as `tspace convert-map --channels` reads them: "rg", "ag", "bgr"; a capital letter inverts a channel; with two letters z is computed. Default: the layout of the file. */
+  /** Channels that hold x, y and z, as `tspace convert-map --channels` reads them: "rg", "ag", "bgr" (x, y, z and w mean r, g, b and a); a capital letter inverts a channel; with two letters z is computed. Default: the layout of the file. */
   channels?: string | null;
   /** "srgb" removes an sRGB encoding, "linearized" reapplies it. Default: "none". */
   curve?: "none" | "srgb" | "linearized";
