@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Calls shared by the entries, parameterized by the loaded module.
-import { boolean, choice, count, fail, failType, floats, integers, isMissing, number, numberWithin, object, optionsOf, output } from "./check.js";
+import { boolean, choice, count, fail, failType, floats, integers, isMissing, number, numberWithin, object, optionsOf, output, valueOr } from "./check.js";
 import { conventionBits } from "./convention.js";
 import { frameShapeNames, pairingNames, sanitizeReportNames, tangentReportNames } from "./names.js";
 
@@ -46,14 +46,14 @@ export const mikktspaceOptions = ["method", "threshold", "pairing", "ngons", "co
 /** Returns the tangent options in the form that the module expects. */
 export function tangentArguments(options, { methods, ngons }) {
   return [
-    choice(options.method ?? "mikktspace", "method", methods),
-    numberWithin(options.threshold ?? 180, "threshold", 0, 360, " degrees"),
-    choice(options.pairing ?? "reference", "pairing", pairingNames),
-    choice(options.ngons ?? ngons[0], "ngons", ngons),
+    choice(valueOr(options.method, "mikktspace"), "method", methods),
+    numberWithin(valueOr(options.threshold, 180), "threshold", 0, 360, " degrees"),
+    choice(valueOr(options.pairing, "reference"), "pairing", pairingNames),
+    choice(valueOr(options.ngons, ngons[0]), "ngons", ngons),
     conventionBits(options.convention),
-    choice(options.frame ?? "gramSchmidt", "frame", frameShapeNames),
-    count(options.refine ?? 1, "refine"),
-    boolean(options.normalizeNormals ?? false, "normalizeNormals"),
+    choice(valueOr(options.frame, "gramSchmidt"), "frame", frameShapeNames),
+    count(valueOr(options.refine, 1), "refine"),
+    boolean(valueOr(options.normalizeNormals, false), "normalizeNormals"),
   ];
 }
 
@@ -130,7 +130,7 @@ export function makeCalls(wasm, choices) {
 
     sanitizeTangents(mesh, tangents, options = {}) {
       optionsOf(options, ["orthogonalizeAll", "report"]);
-      const all = boolean(options.orthogonalizeAll ?? false, "orthogonalizeAll");
+      const all = boolean(valueOr(options.orthogonalizeAll, false), "orthogonalizeAll");
       const checked = meshOf(mesh, true);
       const given = floats(tangents, "tangents", 4, true);
       return wasm.run((call) => {

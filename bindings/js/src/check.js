@@ -4,6 +4,9 @@ import { TspaceError, typeError } from "./error.js";
 
 export const isMissing = (value) => value === undefined || value === null;
 
+/** Returns the value of an option, or its default if it was not given. Only arrays and functions may be null instead. */
+export const valueOr = (value, fallback) => (value === undefined ? fallback : value);
+
 export const fail = (code, message, element) => {
   throw code === "wrongType" ? typeError(code, message) : new TspaceError(code, message, element);
 };
@@ -105,5 +108,5 @@ export function object(value, name, known) {
 }
 
 export function optionsOf(value, known) {
-  object(object(value, "options", known).report ?? {}, "report");
+  object(valueOr(object(value, "options", known).report, {}), "report");
 }

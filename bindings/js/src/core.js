@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The whole core, shared by the entries that load its module.
 import { givenMesh, ignoredOptions, makeCalls, meshOf, mikktspaceOptions, setMesh, tangentArguments, withIgnored, writeTangents } from "./calls.js";
-import { boolean, fail, failType, floats, integers, isMissing, object, optionsOf } from "./check.js";
+import { boolean, fail, failType, floats, integers, isMissing, object, optionsOf, valueOr } from "./check.js";
 import { TspaceError } from "./error.js";
 import { methodNames, ngonsNames, normalReportNames, sanitizeReportNames, tangentReportNames } from "./names.js";
 import { ignoredNormalOptions, normalArguments, normalOptions, normalsOf } from "./normal_calls.js";
@@ -58,8 +58,8 @@ function ignoredFrameOptions(options, makesNormals) {
 export function makeIndexedFrames(mesh, options = {}) {
   optionsOf(options, [...tangentOptions, ...steps, "normals", "report"]);
   const tangents = tangentArguments(options, choices);
-  const chosen = steps.map((name) => boolean(options[name] ?? name === "sanitize", name));
-  const normals = normalArguments(object(options.normals ?? {}, "normals", normalOptions), false);
+  const chosen = steps.map((name) => boolean(valueOr(options[name], name === "sanitize"), name));
+  const normals = normalArguments(object(valueOr(options.normals, {}), "normals", normalOptions), false);
   const checked = meshOf(mesh);
   return wasm.run((call) => {
     setMesh(call, checked);
@@ -111,7 +111,7 @@ export class Plan {
       object(options, "options", ["indices", "sourceCorners", "mesh", "normals"]);
       const lists = ["indices", "sourceCorners"].map((name) => integers(options[name], name));
       const checked = isMissing(options.mesh) ? undefined : meshOf(options.mesh);
-      const normals = normalArguments(object(options.normals ?? {}, "normals", [...normalOptions, "convention"]), false);
+      const normals = normalArguments(object(valueOr(options.normals, {}), "normals", [...normalOptions, "convention"]), false);
       plan.#held();
       return wasm.run((call) => {
         if (checked) setMesh(call, checked);

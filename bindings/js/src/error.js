@@ -34,13 +34,16 @@ const codes = {
   100: "invalidFile", 101: "unsupportedFile", 102: "forbiddenPath", 103: "cannotRead", 104: "cannotWrite",
 };
 
+/** Returns the JavaScript name for a name in C or on the command line: memoryLimit for memory_limit and memory-limit. */
+export const camelCase = (name) => name.replace(/[_-]([a-z])/g, (_, letter) => letter.toUpperCase());
+
 /**
  * Replaces names in a message of the core by JavaScript names: normalIndices for normal_indices, creaseAngle for
- * crease_angle_deg.
+ * crease_angle_deg, "auto" for weld_auto (-1).
  */
 export const inJavaScriptNames = (text) =>
   text
-    .replace(/\b(crease|denoise)_auto\b/g, '"auto"')
-    .replace(/\b[a-z]+(?:_[a-z]+)+\b/g, (name) => name.replace(/_deg$/, "").replace(/_([a-z])/g, (_, letter) => letter.toUpperCase()));
+    .replace(/\b(?:crease|denoise|weld)_auto\b(?: \(-1\))?/g, '"auto"')
+    .replace(/\b[a-z]+(?:_[a-z]+)+\b/g, (name) => camelCase(name.replace(/_deg$/, "")));
 
 export const codeName = (number) => codes[number] ?? "internal";

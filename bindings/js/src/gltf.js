@@ -2,14 +2,21 @@
 // The entry "tspace/gltf": processes models in memory. Options and reports correspond to the command-line tool and its
 // JSON.
 import { source } from "#gltf";
-import { bytes, fail, failType, object } from "./check.js";
+import { bytes, fail, failType, isMissing, object } from "./check.js";
 import { Codecs, codecsOf } from "./codecs.js";
-import { TspaceError } from "./error.js";
+import { camelCase, TspaceError } from "./error.js";
 import { optionNames } from "./file_options.js";
 import { textAt, Wasm } from "./wasm.js";
 
 export { TspaceError };
 export { remedyText } from "./remedies.js";
+
+const namesOfAll = new Set(Object.values(optionNames).flat());
+
+/** Replaces names of options in a message: memoryLimit for --memory-limit. Quoted words, such as paths, are unchanged. */
+function inJavaScriptOptions(text) {
+  return text.replace(/(?<!\w)'.*?'(?!\w)|(?<![\w-])--([a-z-]+)/g, (all, name = "") => (namesOfAll.has(camelCase(name)) ? camelCase(name) : all));
+}
 
 /** State of the current call: `files` provides the files that its models reference; `codecs` decodes and encodes. */
 let current;
@@ -28,7 +35,7 @@ const wasm = new Wasm({
   takeImage: (data, size, type) => current.codecs.takeImage(data, size, textAt(wasm.exports, type)),
   parseNumber: (text) => Number(textAt(wasm.exports, text)),
   now: () => performance.now(),
-});
+}, inJavaScriptOptions);
 export const ready = wasm.start(source);
 export const release = () => wasm.release();
 
@@ -51,7 +58,7 @@ const textDecoder = new TextDecoder();
 
 /** Returns a function that maps a path to the bytes of a file referenced by the model, or undefined. */
 function finderOf(resources) {
-  if (resources === undefined || resources === null) return undefined;
+  if (isMissing(resources)) return undefined;
   if (typeof resources === "function") return resources;
   if (resources instanceof Map) return (path) => resources.get(path);
   object(resources, "resources");
@@ -87,7 +94,7 @@ class Files {
     const key = `${model} ${name}`;
     if (!this.#found.has(key)) {
       const content = this.finders[model](name);
-      if (content === undefined || content === null) return cannotRead;
+      if (isMissing(content)) return cannotRead;
       const array = bytes(content, `the result of resources for ${JSON.stringify(name)}`);
       this.#found.set(key, [this.call.put(array, Uint8Array), array.length]);
     }
@@ -100,8 +107,8 @@ class Files {
 /** Reports progress, and stops a call that its caller has aborted. */
 class Watch {
   constructor(onProgress, signal) {
-    if (onProgress !== undefined && onProgress !== null && typeof onProgress !== "function") failType(onProgress, "onProgress", "a function");
-    if (signal !== undefined && signal !== null && typeof object(signal, "signal").aborted !== "boolean")
+    if (!isMissing(onProgress) && typeof onProgress !== "function") failType(onProgress, "onProgress", "a function");
+    if (!isMissing(signal) && typeof object(signal, "signal").aborted !== "boolean")
       fail("wrongType", "signal must be an AbortSignal: its property aborted is not a boolean");
     this.onProgress = onProgress ?? undefined;
     this.signal = signal ?? undefined;
@@ -152,7 +159,7 @@ function callFiles(verb, models, options) {
 }
 
 function modelOf(data, name, what = "the model") {
-  if (name !== undefined && name !== null && (typeof name !== "string" || name.includes("\0")))
+  if (!isMissing(name) && (typeof name !== "string" || name.includes("\0")))
     failType(name, "name", "text without null characters");
   return { data: bytes(data, what), name: name ?? "" };
 }

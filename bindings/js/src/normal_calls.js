@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Computation of normals, for the entries that support it.
 import { givenMesh, keepReport, meshOf, setMesh } from "./calls.js";
-import { boolean, choice, count, fail, integers, isMissing, number, optionsOf } from "./check.js";
+import { boolean, choice, count, fail, failType, integers, isMissing, optionsOf, valueOr } from "./check.js";
 import { conventionBits } from "./convention.js";
 import { normalReportNames, normalWeightingNames } from "./names.js";
 
@@ -16,24 +16,32 @@ export function ignoredNormalOptions({ weighting = "angle", ...options }) {
   return normalOptions.filter((name) => !isMissing(options[name]) && ignored.includes(name));
 }
 
-export const numberOrAuto = (value, name) => (value === "auto" ? -1 : number(value, name));
+/**
+ * Returns a number for the module, in which -1 means "auto". Callers cannot pass -1: it becomes another negative number,
+ * so that the module's error states the valid range.
+ */
+export function numberOrAuto(value, name) {
+  if (value === "auto") return -1;
+  if (typeof value !== "number" || value !== value) failType(value, name, 'a number or "auto"');
+  return value < 0 ? -2 : value;
+}
 
 /**
  * Checks the options of normals. Returns a function of a call that copies the smoothing groups to the module's memory
  * and returns the arguments. `isWhole`: the module is that of "tspace/normals", which supports all options.
  */
 export function normalArguments(options, isWhole) {
-  for (const [name, given] of [["creaseAngle", options.creaseAngle === "auto"], ["denoise", (options.denoise ?? 0) !== 0]])
+  for (const [name, given] of [["creaseAngle", options.creaseAngle === "auto"], ["denoise", options.denoise === "auto" || options.denoise > 0]])
     if (given && !isWhole) fail("invalidOption", `${name}: ${options[name]} is only supported by generateNormals of "tspace/normals"`);
   const groups = integers(options.smoothingGroups, "smoothingGroups");
-  const before = [choice(options.weighting ?? "angle", "weighting", normalWeightingNames), numberOrAuto(options.creaseAngle ?? 180, "creaseAngle")];
+  const before = [choice(valueOr(options.weighting, "angle"), "weighting", normalWeightingNames), numberOrAuto(valueOr(options.creaseAngle, 180), "creaseAngle")];
   const after = [
-    boolean(options.smoothingGroupsAreMasks ?? false, "smoothingGroupsAreMasks"),
-    boolean(options.weldPositions ?? true, "weldPositions"),
-    conventionBits(options.convention ?? "gltf"), // only handedness and winding are used
-    count(options.refine ?? 2, "refine"),
-    numberOrAuto(options.denoise ?? 0, "denoise"),
-    numberOrAuto(options.weldDistance ?? 0, "weldDistance"),
+    boolean(valueOr(options.smoothingGroupsAreMasks, false), "smoothingGroupsAreMasks"),
+    boolean(valueOr(options.weldPositions, true), "weldPositions"),
+    conventionBits(valueOr(options.convention, "gltf")), // only handedness and winding are used
+    count(valueOr(options.refine, 2), "refine"),
+    numberOrAuto(valueOr(options.denoise, 0), "denoise"),
+    numberOrAuto(valueOr(options.weldDistance, 0), "weldDistance"),
   ];
   return (call) => [...before, call.put(groups, Uint32Array), groups?.length ?? 0, ...after];
 }

@@ -2,7 +2,7 @@
 // The entry "tspace/normals": preparation of scans, AI-generated meshes and CAD data before tangents.
 import { source } from "#normals";
 import { givenMesh, meshOf, setMesh } from "./calls.js";
-import { boolean, optionsOf } from "./check.js";
+import { boolean, optionsOf, valueOr } from "./check.js";
 import { conventionBits } from "./convention.js";
 import { normalsOf, numberOrAuto } from "./normal_calls.js";
 import { positionNoiseNames, windingReportNames } from "./report_names.js";
@@ -43,10 +43,10 @@ function turnedIndices({ indices, faceSizes, cornerCount }, turned) {
 export function fixWinding(mesh, options = {}) {
   optionsOf(options, ["useNormals", "weldPositions", "weldDistance", "convention"]);
   const given = [
-    boolean(options.useNormals ?? true, "useNormals"),
-    boolean(options.weldPositions ?? true, "weldPositions"),
-    conventionBits(options.convention ?? "gltf"), // only handedness and winding are used
-    numberOrAuto(options.weldDistance ?? 0, "weldDistance"),
+    boolean(valueOr(options.useNormals, true), "useNormals"),
+    boolean(valueOr(options.weldPositions, true), "weldPositions"),
+    conventionBits(valueOr(options.convention, "gltf")), // only handedness and winding are used
+    numberOrAuto(valueOr(options.weldDistance, 0), "weldDistance"),
   ];
   const { positions, normals, indices, faceSizes, normalIndices } = givenMesh(mesh);
   const checked = meshOf({ positions, normals, indices, faceSizes, normalIndices });

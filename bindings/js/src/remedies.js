@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Remedies of findings as calls of tspace/gltf.
+import { camelCase } from "./error.js";
 
 /** Returns the options of a call as text: `{ overwriteNormals: true, crease: "60" }`. */
 const optionsText = (options) =>
-  `{ ${options.map(({ name, value }) => `${name.replace(/-./g, ([, letter]) => letter.toUpperCase())}: ${value === "" ? "true" : JSON.stringify(value)}`).join(", ")} }`;
+  `{ ${options.map(({ name, value }) => `${camelCase(name)}: ${value === "" ? "true" : JSON.stringify(value)}`).join(", ")} }`;
 
 export function remedyText({ remedy, commands }) {
   let text = "", rest = remedy;

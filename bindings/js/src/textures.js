@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The entry "tspace/textures": decodes KTX2 and DDS to pixels, and encodes normal maps as KTX2 and DDS.
 import { source } from "#textures";
-import { boolean, bytes as bytesOf, choice, count, fail, failType, isMissing, number, object } from "./check.js";
+import { boolean, bytes as bytesOf, choice, count, fail, failType, isMissing, number, object, valueOr } from "./check.js";
 import { textAt, Wasm } from "./wasm.js";
 
 export { TspaceError } from "./error.js";
@@ -58,9 +58,9 @@ const channelNames = ["red", "green", "blue", "alpha", null];
 export function readTexture(file, options = {}) {
   object(options, "options", ["level", "numbers", "vectors", ...unpacking]);
   const data = bytesOf(file, "the texture");
-  const level = count(options.level ?? 0, "level");
-  const kind = isMissing(options.numbers) ? -1 : choice(options.numbers, "numbers", numberKinds);
-  const makesVectors = boolean(options.vectors ?? true, "vectors");
+  const level = count(valueOr(options.level, 0), "level");
+  const kind = options.numbers === undefined ? -1 : choice(options.numbers, "numbers", numberKinds);
+  const makesVectors = boolean(valueOr(options.vectors, true), "vectors");
   return run(options, (call) => {
     const exports = call.wasm;
     call.check(exports.readTexture(call.put(data), data.length, level, kind, makesVectors));
@@ -86,8 +86,8 @@ export function convertMap(image, options = {}) {
   const { channels, decodeImage } = options;
   checkFunction(decodeImage, "decodeImage");
   if (!isMissing(channels) && typeof channels !== "string") failType(channels, "channels", "a string");
-  const curve = choice(options.curve ?? "none", "curve", curves);
-  const flipsRed = boolean(options.flipRed ?? false, "flipRed"), flipsGreen = boolean(options.flipGreen ?? false, "flipGreen");
+  const curve = choice(valueOr(options.curve, "none"), "curve", curves);
+  const flipsRed = boolean(valueOr(options.flipRed, false), "flipRed"), flipsGreen = boolean(valueOr(options.flipGreen, false), "flipGreen");
   const map = imageOf(image, "the map", decodeImage);
   return run(options, (call) => {
     const exports = call.wasm, letters = isMissing(channels) ? 0 : call.put(new TextEncoder().encode(`${channels}\0`));
@@ -153,13 +153,13 @@ export function compressMap(image, options = {}) {
   object(options, "options", ofCompression);
   const { decodeImage } = options;
   checkFunction(decodeImage, "decodeImage");
-  const format = choice(options.format ?? "bc5", "format", formats), quality = choice(options.quality ?? "fast", "quality", qualities);
-  const isSigned = boolean(options.signed ?? false, "signed"), hasLevels = !boolean(options.noLevels ?? false, "noLevels");
-  const isDds = choice(options.container ?? "ktx2", "container", containers) === 1;
-  const alpha = choice(options.alpha ?? "auto", "alpha", alphas);
-  const header = choice(options.ddsHeader ?? "dx10", "ddsHeader", headers);
+  const format = choice(valueOr(options.format, "bc5"), "format", formats), quality = choice(valueOr(options.quality, "fast"), "quality", qualities);
+  const isSigned = boolean(valueOr(options.signed, false), "signed"), hasLevels = !boolean(valueOr(options.noLevels, false), "noLevels");
+  const isDds = choice(valueOr(options.container, "ktx2"), "container", containers) === 1;
+  const alpha = choice(valueOr(options.alpha, "auto"), "alpha", alphas);
+  const header = choice(valueOr(options.ddsHeader, "dx10"), "ddsHeader", headers);
   if (header !== 0 && !isDds) fail("invalidOption", "ddsHeader can only be used with the container dds");
-  const factor = number(options.roughnessFactor ?? 1, "roughnessFactor");
+  const factor = number(valueOr(options.roughnessFactor, 1), "roughnessFactor");
   if (isMissing(options.roughness) && !isMissing(options.roughnessFactor)) fail("invalidOption", "roughnessFactor needs roughness");
   const map = imageOf(image, "the map", decodeImage);
   const rough = isMissing(options.roughness) ? null : imageOf(options.roughness, "the roughness", decodeImage);

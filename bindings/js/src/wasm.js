@@ -29,12 +29,12 @@ export class Wasm {
   #translated;
 
   /**
-   * `imports`: functions that a file module needs in addition to `endCall`. Error messages of file modules are not
-   * translated, because they may contain paths.
+   * `imports`: functions that a file module needs in addition to `endCall`. `translated`: replaces names in error
+   * messages; those of file modules may contain paths.
    */
-  constructor(imports) {
+  constructor(imports, translated = imports ? (text) => text : inJavaScriptNames) {
     this.#imports = imports ?? {};
-    this.#translated = imports ? (text) => text : inJavaScriptNames;
+    this.#translated = translated;
   }
 
   /** Starts loading; later calls have no effect. `source`: URL of the module, or a function that returns its bytes. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The entry "tspace/webgpu": computes normals and tangents of each pose with WebGPU from a plan. Buffers belong to the
 // caller; nothing is read back.
-import { count, fail, failType, isMissing, number, object } from "./check.js";
+import { count, fail, failType, isMissing, number, object, valueOr } from "./check.js";
 import { shader } from "./evaluate_shader.js";
 
 export { TspaceError } from "./error.js";
@@ -51,10 +51,10 @@ function vertexCountOf(words) {
 function arrayOf(given, name, formats, elements) {
   const isBuffer = typeof given?.usage === "number" && typeof given.size === "number";
   const array = isBuffer ? { buffer: given } : object(given, name, ["buffer", "offset", "stride", "format", "scale"]);
-  const known = Object.keys(formats), format = array.format ?? known[0];
+  const known = Object.keys(formats), format = valueOr(array.format, known[0]);
   if (!known.includes(format)) fail("invalidOption", `${name}.format must be one of ${known.join(", ")}, not ${format}`);
   const { number: code, bytes, unit } = formats[format];
-  const offset = count(array.offset ?? 0, `${name}.offset`), stride = count(array.stride ?? bytes, `${name}.stride`);
+  const offset = count(valueOr(array.offset, 0), `${name}.offset`), stride = count(valueOr(array.stride, bytes), `${name}.stride`);
   if (offset % unit !== 0 || stride % unit !== 0) fail("misaligned", `${name}: offset and stride must be multiples of ${unit} bytes`);
   if (stride < bytes) fail("strideTooSmall", `${name}.stride is ${stride} bytes, but elements of ${format} have ${bytes} bytes`);
   const { buffer } = array;

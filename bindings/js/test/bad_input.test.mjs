@@ -25,6 +25,8 @@ function refuses(code, words, body, element) {
   });
   assert.deepEqual(generateTangents(mesh, options), good);
 }
+const plainNormals = (given) => generateNormals(mesh, given);
+const wholeNormals = (given) => whole.generateNormals(mesh, { ...given, weighting: given.weighting === undefined ? "best" : given.weighting });
 const tangentsOf = (changes, more = {}) => () => generateTangents({ ...mesh, ...changes }, { ...options, ...more });
 
 describe("rejects", () => {
@@ -106,6 +108,33 @@ describe("rejects", () => {
       refuses("invalidOption", [/^threshold must be a number from 0 to 360 degrees, not /], tangentsOf({}, { threshold }));
     for (const threshold of [NaN, "180"]) refuses("wrongType", [/^threshold must be a number, not /], tangentsOf({}, { threshold }));
     for (const threshold of [0, 360]) assert.equal(tangentsOf({}, { threshold })().length, good.length);
+  });
+
+  it("numbers below 0 where \"auto\" is possible", () => {
+    const calls = [
+      [plainNormals, ["creaseAngle", "weldDistance"]], [wholeNormals, ["creaseAngle", "weldDistance", "denoise"]],
+      [(given) => makeIndexedFrames(mesh, { ...options, makeNormals: true, normals: { ...given, weighting: "best" } }), ["creaseAngle", "weldDistance"]],
+      [(given) => whole.fixWinding(mesh, given), ["weldDistance"]],
+    ];
+    for (const [call, names] of calls)
+      for (const name of names)
+        for (const value of [-1, -1 - 1e-12, -0.5, -2, -Infinity])
+          refuses("invalidOption", [new RegExp(`^${name} must be (a finite number of 0 or more|from 0 to \\d+), or "auto"$`)], () => call({ [name]: value }));
+    refuses("invalidOption", [/^denoise must be from 0 to 4, or "auto"$/], () => plainNormals({ denoise: -1 }));
+    refuses("wrongType", [/^weldDistance must be a number or "auto", not "automatic"$/], () => plainNormals({ weldDistance: "automatic" }));
+  });
+
+  it("null, except for arrays and functions", () => {
+    for (const name of ["method", "threshold", "pairing", "ngons", "convention", "frame", "refine", "normalizeNormals", "report"])
+      refuses(/threshold|normalizeNormals|report/.test(name) ? "wrongType" : "invalidOption", [new RegExp(`^${name} .*(null|missing)`)], tangentsOf({}, { [name]: null }));
+    for (const name of ["weighting", "creaseAngle", "smoothingGroupsAreMasks", "weldPositions", "weldDistance", "refine", "denoise", "convention"])
+      assert.throws(() => wholeNormals({ [name]: null }), ({ message }) => message.startsWith(`${name} `), name);
+    for (const name of ["makeNormals", "sanitize", "orthogonalizeAll", "normals"])
+      assert.throws(() => makeIndexedFrames(mesh, { ...options, [name]: null }), ({ message }) => message.startsWith(`${name} `), name);
+    for (const name of ["useNormals", "weldPositions", "weldDistance", "convention"])
+      assert.throws(() => whole.fixWinding(mesh, { [name]: null }), ({ message }) => message.startsWith(`${name} `), name);
+    assert.throws(() => sanitizeTangents(mesh, good, { orthogonalizeAll: null }), { message: "orthogonalizeAll must be true or false, not null" });
+    assert.deepEqual(generateTangents({ ...mesh, faceSizes: null }, { ...options, hasTangent: null }), good);
   });
 
   it("with the names that callers use", () => {

@@ -15,6 +15,8 @@ const { meshes, cases } = JSON.parse(textOf("arrays.json"));
 
 /** Options that this binding does not have: these cases are left to other languages. */
 const lacks = ["domain"];
+/** Options for which -1 in the table, as in C, is "auto" in JavaScript. */
+const withAuto = ["crease_angle_deg", "denoise", "weld_distance"];
 const choices = ["pairing", "ngons", "frame", "weighting"];
 
 const camel = (name) => name.replace(/_([a-z])/g, (_, letter) => letter.toUpperCase());
@@ -81,7 +83,8 @@ describe("the cases of all languages", () => {
     if (!calls[call] || lacks.some((option) => option in options)) continue;
     it(name, () => {
       const arrays = meshOf(Object.fromEntries(Object.entries({ ...meshes[mesh], ...change }).filter(([, list]) => list !== null)));
-      const given = Object.fromEntries(Object.entries(options).map(([option, value]) => [optionName(option), choices.includes(option) ? camel(value) : value]));
+      const valueOf = (option, value) => (choices.includes(option) ? camel(value) : withAuto.includes(option) && value === -1 ? "auto" : value);
+      const given = Object.fromEntries(Object.entries(options).map(([option, value]) => [optionName(option), valueOf(option, value)]));
       const run = () => calls[call](arrays, given);
       if (error) return assert.throws(run, (thrown) => thrown.code === error.code && thrown.element === (error.element ?? thrown.element));
       const made = run();

@@ -78,6 +78,23 @@ describe("models in memory", () => {
     refuses("invalidOption", [/methods/, /method/], () => generate(model, { methods: "best" }));
     refuses("invalidOption", [/method/, /mikktspace/], () => generate(model, { method: "mikkt" }));
     refuses("invalidFile", [/./], () => check(new Uint8Array(0)));
+    for (const [call, given, words] of [
+      [generate, { memoryLimit: "3K" }, /^memoryLimit 3K: /], [generate, { crease: 400 }, /^crease 400: /],
+      [generate, { packDrop: "all" }, /^packDrop needs pack$/], [generate, { repair: true, overwrite: true }, /^repair and overwrite cannot be used together$/],
+      [generate, { weldDistance: -1 }, /^weldDistance -1: .*auto/], [generate, { morphNormals: "some" }, /^morphNormals some: /],
+      [check, { angle: 900 }, /^angle 900: /], [check, { failOn: "never" }, /^failOn never: /],
+      [(data, options) => diff(data, data, options), { worst: -1 }, /^worst -1: /],
+    ]) {
+      assert.throws(() => call(model, given), (error) => {
+        assert.equal(error.code, "invalidOption", error.message);
+        assert.match(error.message, words);
+        assert.doesNotMatch(error.message, /--/);
+        return true;
+      });
+    }
+    // Words in quotes are the caller's, such as paths.
+    const { model: other } = gridModel({ uri: "x%20--weld-distance's.bin" });
+    refuses("invalidFile", [/'x --weld-distance's\.bin'/], () => generate(other, { resources: {} }));
     refuses("invalidFile", [/JSON/], () => check(Buffer.from("{")));
     const gone = Uint8Array.from(model);
     structuredClone(gone.buffer, { transfer: [gone.buffer] });

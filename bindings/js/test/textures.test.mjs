@@ -179,7 +179,9 @@ describe("convertMap", () => {
     assert.deepEqual(convertMap(bytes, { channels: "rg" }).rgba, read.rgba);
     refuses("invalidOption", /channels must be two or three of/, () => convertMap({ width, height, rgba }, { channels: "rr" }));
     refuses("invalidOption", /read from alpha, which the image does not have/, () => convertMap({ width, height, rgba }, { channels: "ag" }));
+    assert.deepEqual(convertMap({ width, height, rgba: alpha }, { channels: "wyZ" }).rgba, convertMap({ width, height, rgba: alpha }, { channels: "agB" }).rgba);
     refuses("wrongType", /channels/, () => convertMap({ width, height, rgba }, { channels: 3 }));
+    refuses("invalidOption", /^curve must be one of none.*, not null$/, () => convertMap({ width, height, rgba }, { curve: null }));
   });
 });
 

@@ -195,6 +195,15 @@ class BadInput(unittest.TestCase):
         refuses(ValueError, "weighting", tspace.normals, *[self.positions, self.indices], weighting="heavy")
         refuses(TypeError, "crease_angle", tspace.normals, self.positions, self.indices, crease_angle="sharp")
         refuses(ValueError, "", tspace.normals, self.positions, self.indices, crease_angle=181)
+        for call, options in ((tspace.normals, ("crease_angle", "denoise", "weld_distance")), (tspace.fix_winding, ("weld_distance",))):
+            for option in options:
+                for value in (-1, -1 - 1e-12, -0.5, numpy.float32(-1), -numpy.inf):
+                    words = f'{option} must be (a finite number of 0 or more|from 0 to \\d+), or "auto"'
+                    with self.subTest(option=option, value=value):
+                        error = refuses(tspace.InputError, "", call, self.positions, self.indices, **{option: value})
+                        self.assertRegex(str(error), f"^{words}$")
+                        self.assertEqual(error.code, "invalidOption")
+        refuses(TypeError, 'or "auto", not \'automatic\'', tspace.normals, self.positions, self.indices, weld_distance="automatic")
         refuses(ValueError, "", tspace.normals, self.positions, self.indices, smoothing_groups=[1, 2])
         refuses(TypeError, "smoothing_groups", tspace.normals, self.positions, self.indices, smoothing_groups="a")
         rows = numpy.zeros((36, 4), numpy.float32)

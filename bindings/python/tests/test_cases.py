@@ -11,6 +11,8 @@ import tspace
 
 CASES = Path(__file__).resolve().parents[3] / "tests" / "cases"
 RENAMED = {"angular_threshold_deg": "threshold", "crease_angle_deg": "crease_angle"}
+# Options for which -1 in the table, as in C, is "auto" in Python.
+WITH_AUTO = ("crease_angle_deg", "denoise", "weld_distance")
 SIZES = {"positions": 3, "normals": 3, "uvs": 2}
 
 
@@ -101,7 +103,10 @@ class Cases(unittest.TestCase):
         for case in table["cases"]:
             mesh = {**table["meshes"].get(case.get("mesh"), {}), **case.get("change", {})}
             mesh = arrays_of({name: value for name, value in mesh.items() if value is not None})
-            options = {RENAMED.get(name, name): value for name, value in case.get("options", {}).items()}
+            options = {
+                RENAMED.get(name, name): "auto" if name in WITH_AUTO and value == -1 else value
+                for name, value in case.get("options", {}).items()
+            }
             with self.subTest(case["name"]):
                 self.check(case, lambda: by_name[case["call"]](mesh, **options))
 

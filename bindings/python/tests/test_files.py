@@ -5,6 +5,7 @@ import errno
 import gc
 import math
 import os
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -372,6 +373,27 @@ class Refused(Files):
             self.assertEqual(error.code, "invalidOption")
         self.refuses(tspace.InputError, "treshold.*worst", tspace.diff, self.plain, self.plain, treshold=1)
         self.refuses(TypeError, "values of options", tspace.generate_bytes, self.plain, method=object())
+
+    def test_messages_name_options_as_arguments(self):
+        out = self.folder / "out.png"
+        calls = (
+            (tspace.generate_bytes, (self.plain,), {"memory_limit": "3K"}, "^memory_limit 3K: "),
+            (tspace.generate_bytes, (self.plain,), {"crease": 400}, "^crease 400: "),
+            (tspace.generate_bytes, (self.plain,), {"weld_distance": -1}, "^weld_distance -1: .*auto"),
+            (tspace.generate_bytes, (self.plain,), {"pack_drop": "all"}, "^pack_drop needs pack$"),
+            (tspace.generate_bytes, (self.plain,), {"repair": True, "overwrite": True}, "^repair and overwrite cannot be used together$"),
+            (tspace.diff, (self.plain, self.plain), {"worst": -1}, "^worst -1: "),
+            (tspace.compress_map_file, (out, out), {"roughness_factor": 1}, "^roughness_factor needs roughness$"),
+            (tspace.convert_map_file, (out, out), {"from_": "word"}, "^from_ word: "),
+            (tspace.convert_map_file, (out, out), {"to_mesh": "a.glb"}, "^to_mesh needs mesh"),
+        )
+        for call, arguments, options, words in calls:
+            with self.subTest(options=options):
+                error = self.refuses(tspace.InputError, words, call, *arguments, **options)
+                self.assertNotIn("--", str(error))
+        # Words in quotes are the caller's, such as paths.
+        path = str(self.folder / "a's --crease weld_auto.glb")
+        self.refuses(tspace.FileError, re.escape(f"'{path}'"), tspace.check, path)
 
     def test_malformed_bytes(self):
         error = self.refuses(tspace.FileError, "", tspace.check, b"no model")

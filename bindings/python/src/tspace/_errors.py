@@ -7,6 +7,7 @@ import re
 from typing import Any, Optional, Sequence, Type
 
 from . import _abi
+from ._file_options import OPTIONS
 
 _OUT_OF_MEMORY = 9
 _FIRST_FILE_CODE = 100
@@ -99,7 +100,6 @@ def shown(value: Any) -> str:
 # Prefixes of C API messages, and the same prefixes with Python's argument names.
 _IN_PYTHON = (
     (r"^crease_angle_deg ", "crease_angle "),
-    (r"\b(crease|denoise)_auto\b", '"auto"'),
     (r"^angular_threshold_deg ", "threshold "),
     (r"^face sizes ", "face_sizes "),
     (r"^the (\d+ corners cannot be divided into faces)", r"face_sizes, indices: the \1"),
@@ -111,14 +111,30 @@ _IN_PYTHON = (
     (r"^the symmetric frame ", r'frame is "symmetric": the symmetric frame '),
 )
 
+# In any place of a message: a path or another word of the caller, a value of the C API that is "auto" in Python, and an
+# option of the command-line tool.
+_NAME = re.compile(r"(?<!\w)'.*?'(?!\w)|\b(?:crease|denoise|weld)_auto\b(?: \(-1\))?|(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
+_OPTIONS = {name for names in OPTIONS.values() for name in names}
+
+
+def argument_name(option: str) -> str:
+    """Returns the name of an argument for an option of the command-line tool, without its dashes."""
+    return "from_" if option == "from" else option.replace("-", "_")
+
+
+def _python_name(found: "re.Match[str]") -> str:
+    if found[1]:
+        name = argument_name(found[1])
+        return name if name in _OPTIONS else found[0]
+    return found[0] if found[0].startswith("'") else '"auto"'
+
 
 def raise_error(error: _abi.Error, paths: Sequence[bytes] = (), outputs: Sequence[bytes] = ()) -> None:
     """Raises the C API's error. paths, outputs: files that the call read and wrote."""
     message = error.message.decode("utf-8", "replace")
     for pattern, words in _IN_PYTHON:
         message = re.sub(pattern, words, message)
-    # Options of file functions have the names of the command-line tool's options.
-    message = re.sub(r"^--([a-z]+(?:-[a-z]+)*)", lambda found: found[1].replace("-", "_"), message)
+    message = _NAME.sub(_python_name, message)
     if error.code == _OUT_OF_MEMORY:
         raise MemoryError(message)
     code = _abi.library.tspace_errorName(error.code).decode()

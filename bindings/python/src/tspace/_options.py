@@ -108,8 +108,14 @@ def real(option: str, value: Any) -> float:
 
 
 def real_or_auto(option: str, value: Any) -> float:
-    """Checks a real number, or "auto", which is -1 in the library."""
-    return -1.0 if isinstance(value, str) and value == "auto" else real(option, value)
+    """Checks a real number, or "auto", which is -1 in the library. Callers cannot pass -1: it becomes another negative
+    number, so that the library's error states the valid range."""
+    if isinstance(value, str):
+        if value == "auto":
+            return -1.0
+        raise TypeError(f'{option} must be a real number or "auto", not {shown(value)}')
+    number = real(option, value)
+    return -2.0 if number < 0 else number
 
 
 def small_number(option: str, value: Any) -> int:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Remedies of findings as Python calls."""
 
+from ._errors import argument_name
 from ._file_reports import Finding, RemedyCommand
 
 _FUNCTIONS = {
@@ -43,12 +44,8 @@ def _call(command: RemedyCommand) -> str:
     if command.verb == "bake":
         paths.append(repr(options.pop("high")))
     paths.append(repr(options.pop("o")) if "o" in options else "output")
-    given = [f"{_keyword(name)}={_value(value)}" for name, value in options.items()]
+    given = [f"{argument_name(name)}={_value(value)}" for name, value in options.items()]
     return f"tspace.{function}({', '.join(paths + given)})"
-
-
-def _keyword(option: str) -> str:
-    return "from_" if option == "from" else option.replace("-", "_")
 
 
 def _value(value: str) -> str:
