@@ -64,11 +64,16 @@ struct MapReading {
     friend bool operator==(const MapReading&, const MapReading&) = default;
 };
 
-/// Returns the reading of a program by its name in lower case: the names of findConvention, and "three". `gltf`,
-/// `blender` and `opengl` are the default; `directx` has green down; `unreal` green down and two channels; `unity` (URP
-/// and HDRP) two channels; `godot` and `three` a bitangent per vertex and unit vectors, and `godot` two channels. These
-/// values come from the shader sources of these programs as of 2026 (docs/reference/shaders.md). Returns null for any
-/// other name. Thread-safe.
+/// Returns the reading of a program by its name in lower case: the names of findConvention, and "three". These values
+/// come from the shader sources of these programs as of 2026 (docs/reference/shaders.md). Returns null for any other
+/// name. Thread-safe.
+///
+/// gltf, blender, opengl  the default
+/// directx                green down
+/// unreal                 green down, two channels
+/// unity (URP and HDRP)   two channels
+/// godot                  bitangent per vertex, unit vectors, two channels
+/// three                  bitangent per vertex, unit vectors
 const MapReading* findMapReading(const char* name);
 
 /// Rule that selects the baked face among the front faces of the high poly that a ray hits.

@@ -57,7 +57,7 @@ enum class Ngons : std::uint32_t {
 enum class OutputDomain : std::uint32_t {
     corner = 0,
     /// One entry per vertex of the mesh: for `lengyel` and `basis`, whose results are equal at all corners of a vertex.
-    /// Every entry has the bits of the vertex's corners. Vertices that no used face refers to get 0.
+    /// Each entry is bit-identical to the result at every corner of the vertex. Vertices that no used face refers to get 0.
     vertex = 1,
 };
 
@@ -90,9 +90,9 @@ struct TangentOptions {
 
     // For `mikktspace` only:
 
-    /// Angular threshold in degrees, usually 0..360: faces of a group whose tangents (or bitangents) differ by this or
-    /// more are not averaged. 180 is the default of the reference and of every baker. As in the reference, any float is
-    /// accepted: only its cosine is used, and with NaN no two faces are averaged.
+    /// Angular threshold in degrees, 0 to 180: faces of a group whose tangents (or bitangents) differ by this or more
+    /// are not averaged. 180 is the default of the reference and of every baker. As in the reference, any float is
+    /// accepted, but only its cosine is used: 270 has the effect of 90. With NaN no two faces are averaged.
     float angular_threshold_deg = 180.0f;
     Pairing pairing = Pairing::reference;  ///< the default is bit-identical to every other MikkTSpace
 

@@ -379,8 +379,8 @@ typedef uint32_t tspace_OutputDomain;
 enum {
     TSPACE_DOMAIN_CORNER = 0,
     /* One entry per vertex of the mesh: for TSPACE_METHOD_LENGYEL and TSPACE_METHOD_BASIS, whose results are equal
-     * at all corners of a vertex. Every entry has the bits of the vertex's corners. Vertices that no used face
-     * refers to get 0. */
+     * at all corners of a vertex. Each entry is bit-identical to the result at every corner of the vertex. Vertices
+     * that no used face refers to get 0. */
     TSPACE_DOMAIN_VERTEX = 1
 };
 
@@ -410,9 +410,10 @@ typedef struct tspace_TangentOptions {
     /* TSPACE_FRAME_SYMMETRIC is rejected for TSPACE_METHOD_MIKKTSPACE, whose results are those of the reference, and
      * for TSPACE_METHOD_BASIS, which uses no UVs. The default is what bakers and engines expect. */
     tspace_FrameShape frame;
-    /* Angular threshold in degrees, usually 0..360: faces of a group whose tangents (or bitangents) differ by this
-     * or more are not averaged. 180 is the default of the reference and of every baker. As in the reference, any
-     * float is accepted: only its cosine is used, and with NaN no two faces are averaged. Default: 180. */
+    /* Angular threshold in degrees, 0 to 180: faces of a group whose tangents (or bitangents) differ by this or more
+     * are not averaged. 180 is the default of the reference and of every baker. As in the reference, any float is
+     * accepted, but only its cosine is used: 270 has the effect of 90. With NaN no two faces are averaged. Default:
+     * 180. */
     float angular_threshold_deg;
     tspace_Pairing pairing; /* the default is bit-identical to every other MikkTSpace */
     /* Number of refinement steps after the fit: 0, 1 or 2. A step changes each frame so that, interpolated along the

@@ -36,9 +36,9 @@ TEST(CheckCommand, BeginsWithASummaryAndEndsEachFindingWithItsRemedy) {
                   0),
               0U)
         << run.out;
-    for (const char* text :
-         {"  error    signsInverted\n", "mesh 0 \"folded\", primitive 0, material \"skin\"",
-          "(at /meshes/0/primitives/0)", "every sign is inverted", "first at vertices 0, 1", "fix: Negate every w"}) {
+    for (const char* text : {"  error    signsInverted\n", "mesh 0 \"folded\", primitive 0, material \"skin\"",
+                             "(at /meshes/0/primitives/0)", "every sign is inverted", "first at vertices 0, 1",
+                             "fix: Negate the sign (w) of every tangent"}) {
         EXPECT_NE(run.out.find(text), std::string::npos) << text << "\n" << run.out;
     }
     EXPECT_EQ(run.out.find('\x1b'), std::string::npos) << "colors are for terminals";

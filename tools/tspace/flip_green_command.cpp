@@ -64,8 +64,8 @@ Command flipGreenCommand() {
     };
     const char* group = kInputAndOutput;
     command.add(group, operand("IN", arguments.input, InputKind::image,
-                               "An image: PNG, JPEG, WebP, KTX2, DDS or TGA (the output must then be a PNG); '-': from "
-                               "stdin."));
+                               "An image: PNG, JPEG, WebP, KTX2, DDS, or TGA (for TGA the output must be a PNG); '-': "
+                               "from stdin."));
     command.add(group,
                 fileOption("-o, --output", "OUT", arguments.output,
                            "Output file: .png, .jpg, .jpeg, .webp, .ktx2 or .dds; '-': to stdout. The format must be "

@@ -21,8 +21,8 @@ struct Imported {
 struct ImportRules {
     /// Referenced files may be anywhere. If false, the rule for glTF URIs applies (src/model/io/folder_rule.h).
     bool anywhere = false;
-    /// If false, an offset is subtracted if floats cannot represent the shape and the file has more precision than
-    /// floats.
+    /// Keep coordinates with which floats cannot represent the shape. If false, an offset is subtracted from such
+    /// coordinates, provided that the file has more precision than floats.
     bool keep_coordinates = false;
 };
 

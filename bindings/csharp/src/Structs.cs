@@ -17,10 +17,10 @@ namespace Tspace
         /// <summary>`symmetric` is rejected for `mikktspace`, whose results are those of the reference, and for
         /// `basis`, which uses no UVs. The default is what bakers and engines expect.</summary>
         public FrameShape Frame { get => (FrameShape)fields.Frame; set => fields.Frame = (uint)value; }
-        /// <summary>Angular threshold in degrees, usually 0..360: faces of a group whose tangents (or bitangents)
-        /// differ by this or more are not averaged. 180 is the default of the reference and of every baker. As in
-        /// the reference, any float is accepted: only its cosine is used, and with NaN no two faces are
-        /// averaged.</summary>
+        /// <summary>Angular threshold in degrees, 0 to 180: faces of a group whose tangents (or bitangents) differ
+        /// by this or more are not averaged. 180 is the default of the reference and of every baker. As in the
+        /// reference, any float is accepted, but only its cosine is used: 270 has the effect of 90. With NaN no two
+        /// faces are averaged.</summary>
         public float AngularThresholdDeg { get => fields.AngularThresholdDeg; set => fields.AngularThresholdDeg = value; }
         /// <summary>The default is bit-identical to every other MikkTSpace.</summary>
         public Pairing Pairing { get => (Pairing)fields.Pairing; set => fields.Pairing = (uint)value; }

@@ -99,7 +99,7 @@ function readAttribute(module, decoder, mesh, { id, component, componentCount })
   return withMemory(module, bytes, (place) =>
     decoder.GetAttributeDataArrayForAllPoints(mesh, attribute, module[data], bytes, place)
       ? { values: copyOf(module, Type, place, count) }
-      : { fault: `${name} does not match its accessor` });
+      : { fault: `the values of ${name} are damaged or cannot be converted to the component type of its accessor` });
 }
 
 function readMesh(module, decoder, mesh, limits, wanted) {

@@ -58,7 +58,8 @@ export interface GenerateFileOptions {
   pairing?: "reference" | "corrected";
   /**
    * Angular threshold of mikktspace: tangents of adjacent faces that differ by this angle or more are not averaged. In
-   * degrees, 0 to 360. Bakers use 180. Default: 180.
+   * degrees, 0 to 180; a value above 180 has the effect of 360 minus the value, because only the cosine is used. Bakers
+   * use 180. Default: 180.
    */
   threshold?: number | string;
   /**
@@ -69,8 +70,8 @@ export interface GenerateFileOptions {
   frame?: "gram-schmidt" | "symmetric";
   /**
    * Number of refinement steps of `method` best and `normals` best: 0, 1 or 2. Each step reduces the shading error
-   * between vertices: it adjusts the frames so that, interpolated along an edge, tangents reproduce the direction of the
-   * edge more closely, and normals are closer to perpendicular to it. Default: 1 for tangents, 2 for normals.
+   * between vertices, by fitting the interpolated tangents and normals to the edges of the mesh. Default: 1 for
+   * tangents, 2 for normals.
    */
   refine?: number | string;
   /**

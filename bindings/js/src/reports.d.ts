@@ -138,7 +138,7 @@ export interface RemedyCommand {
   inputs: string[];
   /** Options in the order of the command line. */
   options: RemedyOption[];
-  /** Words among inputs and values that the user replaces, such as "OUT.png". */
+  /** Placeholders in inputs and option values, which the user must replace, such as "OUT.png". */
   placeholders: string[];
   /** Command line, as in "remedy". */
   line: string;

@@ -66,7 +66,10 @@ export interface MikktspaceOptions extends TangentOutputs {
    * all signs.
    */
   convention: ConventionName | Convention;
-  /** Degrees from 0 to 360: tangents of faces that differ by this or more are not averaged. Default: 180. */
+  /**
+   * Degrees from 0 to 180: tangents of faces that differ by this or more are not averaged. A value above 180, up to 360,
+   * has the effect of 360 minus the value. Default: 180.
+   */
   threshold?: number;
   /** `reference` (the default): with the reference's defect in its last bucket of edges. `corrected`: without it. */
   pairing?: "reference" | "corrected";

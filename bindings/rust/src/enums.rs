@@ -58,7 +58,8 @@ pub enum OutputDomain {
     #[default]
     Corner = 0,
     /// One entry per vertex of the mesh: for `lengyel` and `basis`, whose results are equal at all corners of a
-    /// vertex. Every entry has the bits of the vertex's corners. Vertices that no used face refers to get 0.
+    /// vertex. Each entry is bit-identical to the result at every corner of the vertex. Vertices that no used face
+    /// refers to get 0.
     Vertex = 1,
 }
 

@@ -23,9 +23,9 @@ pub struct TangentOptions {
     /// `symmetric` is rejected for `mikktspace`, whose results are those of the reference, and for `basis`, which
     /// uses no UVs. The default is what bakers and engines expect.
     pub frame: FrameShape,
-    /// Angular threshold in degrees, usually 0..360: faces of a group whose tangents (or bitangents) differ by this
-    /// or more are not averaged. 180 is the default of the reference and of every baker. As in the reference, any
-    /// float is accepted: only its cosine is used, and with NaN no two faces are averaged.
+    /// Angular threshold in degrees, 0 to 180: faces of a group whose tangents (or bitangents) differ by this or
+    /// more are not averaged. 180 is the default of the reference and of every baker. As in the reference, any float
+    /// is accepted, but only its cosine is used: 270 has the effect of 90. With NaN no two faces are averaged.
     pub angular_threshold_deg: f32,
     /// The default is bit-identical to every other MikkTSpace.
     pub pairing: Pairing,

@@ -268,9 +268,9 @@ void warnOfRays(FileBaking& state, const BakedFile& file) {
     const MapError& own = file.map.own_error;
     if (own.hidden_count == 0) return;
     state.report.warnings.push_back(
-        std::to_string(own.hidden_count) + " of " + std::to_string(own.point_count + own.missed_count) +
-        " samples would hit another front face of the high poly farther out, which hides the surface that " +
-        pathInQuotes(file.path) + " shows; use --rays outermost to bake the outer one");
+        "at " + std::to_string(own.hidden_count) + " of " + std::to_string(own.point_count + own.missed_count) +
+        " samples, another front face of the high poly lies farther out and hides the surface that was baked into " +
+        pathInQuotes(file.path) + "; use --rays outermost to bake the outer one");
 }
 
 void bakeImage(FileBaking& state, const LowModel::Image& image, const std::string& suffix, std::uint32_t tile,

@@ -188,8 +188,8 @@ void addBakedMapOptions(OptionList& list, BakeFileOptions& options) {
     addLengths(list, group, map.lengths);
     add(list, group,
         number("--padding", map.padding, kMaxPadding,
-               "Padding around UV islands, in texels, so that filtering and smaller mip levels never sample the "
-               "background."));
+               "Padding around UV islands, in texels, so that filtering and the first smaller mip levels do not sample "
+               "the background (16: about four levels)."));
     add(list, group,
         choice("--overlap", "HOW", kOverlaps, map.overlap,
                "Normal of texels where UVs overlap and the triangles need different normals, as on mirrored halves. "

@@ -367,12 +367,14 @@ void describeStorage(const Scene& scene, const NormalMap& map, const std::string
             makeFinding(code, severity, one, "images", "the normal map " + name + std::move(text)));
     };
     if (isEtc1s(facts) || isLossyWebp(image.bytes)) {
-        std::string text = isEtc1s(facts) ? " is " + facts->name + ", which stores one color per 4 x 4 texels"
-                                          : " is a lossy WebP, which stores colors at half the width and height";
+        std::string text =
+            isEtc1s(facts) ? " is " + facts->name + ", which stores a color and four brightness levels per 4 x 4 texels"
+                           : " is a lossy WebP, which stores colors at half the width and height";
         if (content == MapContent::normals)
-            text += std::string(isEtc1s(facts) ? "; so" : "; judging by the lengths of its vectors,") +
-                    " its texels are about " + shortNumber(std::max(0.1, std::round(10 * map.packing_deg) / 10)) +
-                    " degrees off (root mean square error" +
+            text += std::string(isEtc1s(facts) ? ", so" : "; judging by the lengths of its vectors,") +
+                    " its texels are off by about " +
+                    shortNumber(std::max(0.1, std::round(10 * map.packing_deg) / 10)) +
+                    " degrees (root mean square error" +
                     (isEtc1s(facts) ? "; in our measurements UASTC has at most a third of that error)"
                                     : "; a lossless 8-bit image: 0.2)");
         add(FindingCode::normalMapLossy, Severity::note, std::move(text));

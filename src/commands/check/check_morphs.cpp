@@ -91,8 +91,8 @@ class MorphValues {
         return result;
     }
 
-    /// Reports "the offsets of morph target 2 for the normals of 1 of 525 vertices <what>; the same fault is in 3 more
-    /// targets".
+    /// Reports "the offsets of morph target 2 for the normals of 1 of 525 vertices <what>; the same error occurs in 3
+    /// more targets".
     void report(FindingCode code, const FaultyTargets& faulty, const char* attribute, const std::string& what) {
         if (faulty.count == 0) return;
         const std::size_t more = faulty.count - 1;
@@ -261,7 +261,7 @@ void checkMorphNormals(PrimitiveFacts& facts) {
     // Pairs of arrays are checked once, because a file may reference them any number of times.
     std::set<std::array<const Vec3*, 2>> seen;
     for (std::size_t i = 0; i < targets.size(); ++i) {
-        if (targets[i].positions.empty()) continue;  // targets that change only normals are authored
+        if (targets[i].positions.empty()) continue;  // targets that change only normals are intentional
         if (seen.insert({targets[i].positions.data(), targets[i].normals.data()}).second) checker.check(i, targets[i]);
     }
     checker.report();

@@ -290,7 +290,8 @@ void addExplanation(PrimitiveFacts& facts, const FrameHealth& health, const Othe
     }
     if (other.use) message += "; " + facts.primitive.uses[*other.use].needed_by + " uses these UVs";
     facts.add(code, severity, wrong, "vertices", message);
-    // Tangents along these UVs stay wrong even if another texture uses these UVs.
+    // The vertices are faulty even if another texture uses the UVs that the tangents fit, because the first texture
+    // decides.
     for (const std::uint32_t vertex : facts.mesh.corners) facts.faults[vertex] |= faultBit(code);
 }
 

@@ -118,7 +118,7 @@ class NearestDirections {
         if (angle <= 0) right_[vertex] = std::min(right_[vertex], -angle);
     }
     /// Returns the angle in degrees between the tangent of a vertex and the nearest direction of its triangles; 0 if
-    /// the tangent lies between their directions.
+    /// the tangent lies between their directions; kUnknownDirection if no triangle defines a direction.
     [[nodiscard]] float distance(std::size_t vertex) const {
         const float left = left_[vertex], right = right_[vertex];
         if (left == kNone && right == kNone) return kUnknownDirection;

@@ -85,7 +85,8 @@ class GreenBlocks {
 // Finds the axes of a map relative to those of a mesh: the rotation or permutation of channels that maps directions to
 // normals.
 
-/// Mean of n v^T over the surface, where n is the normal of the mesh and v the direction in the map.
+/// Weighted sum of n v^T over the surface, where n is the normal of the mesh and v the direction in the map; the mean
+/// is sum / weight.
 struct Moments {
     std::array<std::array<double, 3>, 3> sum = {};
     double weight = 0;

@@ -45,10 +45,11 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
     {"signsNotOne", "Store +1 or -1 in w: {}.", {"generate --repair"}},
     {"signsMixed", "Split the vertices where mirrored and other triangles meet: {}.", {"generate --repair"}},
     {"signsInverted",
-     "Negate every w: {}. The exporter passed the top-down v of glTF to MikkTSpace, which expects v to point up, and "
-     "did not negate the resulting sign.",
+     "Negate the sign (w) of every tangent: {}. The exporter passed the top-down v of glTF to MikkTSpace, which "
+     "expects "
+     "v to point up, and did not negate the resulting sign.",
      {"generate --repair"}},
-    {"signsWrong", "Negate those w: {}.", {"generate --repair"}},
+    {"signsWrong", "Negate the sign (w) of those tangents: {}.", {"generate --repair"}},
     {"mirroredSeamAveraged",
      "Split the vertices along the seam, so that each side has its own tangent: {}.",
      {"generate --repair"}},
@@ -124,11 +125,11 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "vertices: {}.",
      {"generate --overwrite-normals --normals best --denoise auto"}},
     {"normalMapLossy",
-     "Convert the source again to PNG or lossless WebP, or to UASTC if it must be small. For engines, compress-map "
-     "writes the source as BC5 beside the glTF."},
+     "Convert the source again to PNG or lossless WebP, or to UASTC if it must be small. For engines, compress the "
+     "source to a separate BC5 texture with tspace compress-map."},
     {"normalMapLevels",
-     "Write all mip levels with the program that compressed it. For engines, compress-map writes the source as BC5 "
-     "with all mip levels beside the glTF."},
+     "Write all mip levels with the program that compressed it. For engines, compress the source to a separate BC5 "
+     "texture with all mip levels with tspace compress-map."},
     {"normalMapLengths",
      "Normalize the vectors, unless their lengths are intended. Renderers normalize after filtering, so lengths only "
      "matter between texels and in mip levels."},

@@ -193,7 +193,7 @@ Remedy bothOrNeither() {
             {toCommand("generate --overwrite --flip-green")}};
 }
 
-/// Remedy if the requested convention has green pointing down, so that both the maps and the signs are correct.
+/// Remedy if the requested convention has green pointing down: both the maps and the signs are then correct.
 constexpr const char* kNothingToDo =
     "No action is needed with this convention; readers that follow glTF expect green to point up.";
 

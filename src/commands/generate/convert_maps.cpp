@@ -128,7 +128,7 @@ NewMap convertFor(const MapGroup& group, const FloatImage& image, const Generate
     if (texels.changed == 0) {
         const bool is_intended =
             std::any_of(group.begin(), group.end(), [](const ShownMap* one) { return one->is_intended; });
-        report.reason = is_intended ? "new normals change the shading intentionally"
+        report.reason = is_intended ? "only the new normals change the shading, which is intended"
                                     : "the map gives the same shading with the new tangents";
         return made;
     }

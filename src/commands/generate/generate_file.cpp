@@ -40,7 +40,9 @@ std::string whyMapsUnchanged(const std::string& input, const GenerateOptions& op
 void checkOptions(const std::string& input, const GenerateOptions& options) {
     const auto refuse = [](const std::string& why) { failFile(ErrorCode::invalidOption, why); };
     if (options.selection.all && options.selection.strip)
-        refuse("tangents cannot be added to all primitives and removed from others in the same run");
+        refuse(
+            "the options all and strip cannot be combined: one adds tangents to every primitive, the other removes "
+            "tangents that are not needed");
     if (options.storage.pack && frameBytes(*options.storage.pack) == 0)
         refuse("the format of packed frames is not a value of FrameFormat");
     if (!options.storage.pack && options.storage.pack_drop != PackDrop::nothing)

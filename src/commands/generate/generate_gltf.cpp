@@ -25,8 +25,8 @@
 namespace tspace::gltf {
 namespace {
 
-/// Maximum corners per thread of pools that are computed together: enough to occupy the threads, but limits the memory
-/// of results that wait to be stored.
+/// Maximum number of corners per thread in pools that are computed together: enough to occupy all threads, and few
+/// enough to limit the memory of results that wait to be stored.
 constexpr std::size_t kCornersPerThread = 500'000;
 
 void reportProgress(const GenerateOptions& options, const char* what, std::uint64_t done, std::uint64_t total) {

@@ -233,7 +233,7 @@ FinishedPrimitive finish(const Model& model, const ObjPrimitive& primitive, bool
     report.normals_generated = primitive.normals_generated;
     report.normals_replaced = replaced;
     if (primitive.normals_generated) {
-        FramesReport faults;  // counts of faults; OBJ has no morph targets, so no signs flip
+        FramesReport faults;  // morph_sign_flip_count stays 0, because OBJ has no morph targets
         countFaults(mesh.positions, mesh.normals, {&mesh.indices, 1}, options.normals.compute.weld_distance,
                     {&faults, 1});
         copyReportOfKept(faults, report);

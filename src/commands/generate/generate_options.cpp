@@ -119,7 +119,8 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
     add(list, group,
         degrees("--threshold", tangents.angular_threshold_deg, 360,
                 "Angular threshold of mikktspace: tangents of adjacent faces that differ by this angle or more are not "
-                "averaged. In degrees, 0 to 360. Bakers use 180."));
+                "averaged. In degrees, 0 to 180; a value above 180 has the effect of 360 minus the value, because only "
+                "the cosine is used. Bakers use 180."));
     add(list, group,
         choice(
             "--frame", "NAME", kFrames, tangents.frame,
@@ -128,9 +129,8 @@ void addTangentOptions(OptionList& list, GenerateOptions& options) {
     add(list, group,
         number("--refine", tangents.refine, 2,
                "Number of refinement steps of --method best and --normals best: 0, 1 or 2. Each step reduces the "
-               "shading error between vertices: it adjusts the frames so that, interpolated along an edge, tangents "
-               "reproduce the direction of the edge more closely, and normals are closer to perpendicular to it. "
-               "Default: 1 for tangents, 2 for normals."))
+               "shading error between vertices, by fitting the interpolated tangents and normals to the edges of the "
+               "mesh. Default: 1 for tangents, 2 for normals."))
         .default_text.clear();
     add(list, group,
         flag("--bitangents", options.tangents.bitangents,

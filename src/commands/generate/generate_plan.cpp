@@ -517,8 +517,8 @@ void noteOtherMeshes(Model& model, const GenerateOptions& options, const std::ve
     }
 }
 
-/// Returns the number of triangle rings that influence a normal. Each refinement step of `best` adds one ring;
-/// denoising adds eight, beyond which its weights are negligible.
+/// Returns the number of triangle rings that influence a normal: one, or eight with denoising (beyond which its weights
+/// are negligible), plus one per refinement step of `best`.
 unsigned ringsAround(const NormalOptions& options) {
     if (options.weighting != NormalWeighting::best) return 1;
     return options.refine + (options.denoise == 0 ? 1 : 8);

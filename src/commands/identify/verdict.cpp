@@ -343,8 +343,8 @@ std::string makerSentence(const Identification& result) {
     if (keepsOnePerVertex(best)) {
         return "Made by " + name +
                ", but only one tangent per vertex was kept where corners differ: " + percent(best.nearShare()) +
-               " of the corners fit, " + percent(best.nearAnyShare()) + " at some corner of their vertex" +
-               (best.nearShare() >= kLikelyShare ? ties : "") + ".";
+               " of the tangents match at their own corner, " + percent(best.nearAnyShare()) +
+               " at some corner of their vertex" + (best.nearShare() >= kLikelyShare ? ties : "") + ".";
     }
     if (best.nearShare() >= kLikelyShare) {
         return "Probably made by " + name + ", and modified or averaged afterwards: it reproduces " +

@@ -40,7 +40,8 @@ const Explanation* bestReading(const PrimitiveIdentity& primitive, bool is_trans
 bool followsTransform(const PrimitiveIdentity& primitive);
 
 /// Value of PrimitiveIdentity::skipped for tangents that the importer cannot read.
-inline constexpr const char* kNotRead = "its tangents were not read";
+inline constexpr const char* kNotRead =
+    "its tangents, if any, were not read, because the importer does not support them in this format";
 
 /// Describes the result in sentences. All other members of `result` must be filled.
 std::string verdictOf(const Identification& result);

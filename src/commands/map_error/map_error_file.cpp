@@ -327,7 +327,7 @@ void judge(Measuring& state, const ExplainedReading asked) {
         state.report.fits = false;
         state.report.verdict = "Most rays from the low poly do not hit the high poly within " +
                                shortNumber(asked.error.reach) +
-                               ", so the map cannot be measured: the models do not overlap.";
+                               ", so the map cannot be measured. Check that the models overlap, or raise --reach.";
         return;
     }
     if (better > kUnexplainedDeg) {

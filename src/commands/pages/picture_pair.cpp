@@ -18,7 +18,7 @@ namespace tspace {
 namespace {
 
 constexpr PictureSize kTrial{80, 60, 1}, kWhole{kPlaceWidth, kPlaceHeight, 2};
-/// Difference of a channel, from 0 to 255, from which it is visible.
+/// Minimum visible difference of a color channel, on a scale of 0 to 255.
 constexpr int kSeenStep = 12;
 
 /// One side of a comparison: all meshes of its model, or only the primitive.

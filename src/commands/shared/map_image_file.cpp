@@ -241,9 +241,8 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
     const Scene& scene = drawn.scene;
     const std::vector<ChosenPrimitive> chosen = choosePrimitives(scene, choice);
     if (chosen.empty()) {
-        const std::string which =
-            choice.material.empty() ? std::string() : " of the material " + inQuotes(choice.material);
-        failFile(ErrorCode::invalidFile, "the model has no triangles" + which + " with the UVs of a normal map");
+        const std::string which = choice.material.empty() ? "the model" : "the material " + inQuotes(choice.material);
+        failFile(ErrorCode::invalidFile, "no triangle of " + which + " has the UVs that a normal map needs");
     }
     if (choice.needs_material && choice.material.empty() && chosen.front().is_guess) checkMaterials(chosen);
     MapMesh mesh;

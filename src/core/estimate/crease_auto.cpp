@@ -192,8 +192,9 @@ Histogram histogram(const CreaseFinder& finder) {
     return of;
 }
 
-/// Returns whether noise must be measured. Noise of standard deviation s, relative to the edge length, rotates half
-/// of the edges by at least 126 s degrees: if half of them have angles below 2 degrees, no filtering is needed.
+/// Returns whether noise must be measured. Noise of standard deviation s, relative to the edge length, gives half of
+/// the edges a dihedral angle of at least 126 s degrees: if half of them have angles below 2 degrees, no filtering is
+/// needed.
 bool mayBeNoisy(const Histogram& angles) { return angles.lengths[0] + angles.lengths[1] < angles.all / 2; }
 
 /// Returns whether all faces are triangles, also if each face has its own size, as in OBJ files.

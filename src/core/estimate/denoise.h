@@ -147,7 +147,8 @@ class RingWalk {
     std::uint32_t list_[kMost + kFan + 1];
 };
 
-// Quadratic surface z(x, y) through the groups around a group, from sums that are extended ring by ring.
+// Least-squares fit of a quadratic surface z(x, y) to the positions of the groups around a group. Its sums are extended
+// ring by ring.
 
 /// Local axes of a point: z along a unit normal.
 struct RingFrame {

@@ -23,7 +23,7 @@ constexpr std::size_t kMostPoints = 32768;
 /// Safety factors for the values that all vertices would give. The factor for sigma covers three standard errors. One
 /// standard error is 5.3 % for the median of 480 noisy distances, and 1.8 % for the median of 4096.
 constexpr double kSigmaError = 1.17, kDihedralError = 1.25, kKinkError = 1.1;
-constexpr double kMostGrowth = 1.2;  // maximum factor of withoutGrowth
+constexpr double kMostGrowth = 1.2;  // maximum factor by which withoutGrowth (denoise.h) increases the noise
 
 bool areEqual(const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
@@ -103,7 +103,8 @@ class NoiseScreen {
         if (kinks <= kFewKinks) return false;
         const std::optional<Roughness> roughness = roughnessAroundEdges();
         if (!roughness || !roughness->is_known) return true;
-        // A sample of edges cannot estimate the share of flat edges.
+        // A sample of edges cannot estimate the share of flat edges, so a reduced median is used for both values of
+        // Dihedrals.
         const double turned = kDihedralError * roughness->dihedrals.median;
         for (const double error : {1 / kSigmaError, 1.0, kSigmaError})
             if (kMostGrowth * noisePart(error * roughness->sigma, kKinkError * kinks, {turned, turned}) >= noise)

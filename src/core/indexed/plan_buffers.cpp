@@ -311,7 +311,8 @@ class BufferWriter {
         return false;
     }
 
-    /// Writes the corners of the component and of the first part of the source, ascending; then the other parts.
+    /// Writes the corners whose normals are summed (the component) and those of the first part of the tangent source,
+    /// merged in ascending order; then each other part after a kNextPart.
     void writeEntries(const Key& key) {
         std::span<const std::uint32_t> normal, parts;
         if (key.component != kNone) normal = components_.at(key.component);

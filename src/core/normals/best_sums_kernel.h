@@ -28,8 +28,9 @@ namespace {
 // and without noise and on bevels (docs/evidence/accuracy.md).
 constexpr double kNoise = 0.45;  // share of the edge bend that no normal explains
 constexpr double kKink = 1.5;    // ratio of the misfit of the sharp normals to that of the robust ones, for large faces
-// Same meaning as kNoise, for short edges. A flat cap that is triangulated as a fan from a vertex of its rim has no
-// edge that distinguishes it from a dome; its neighbors, the edges of a fillet, do.
+// Ratio of the bend misfit of the sharp normals to that of the robust ones: as kKink, but dominated by short edges. A
+// flat cap that is triangulated as a fan from a vertex of its rim has no edge that distinguishes it from a dome; its
+// neighbors, the edges of a fillet, do.
 constexpr double kFillet = 1.3;
 // bend (as in kJump, in radians) from which kKink and kFillet apply fully: in fine meshes both misfits are small, and
 // their ratio is random

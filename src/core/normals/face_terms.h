@@ -25,7 +25,8 @@ struct FaceSource {
 };
 
 inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block, whose arrays fit into the L1 cache
-inline constexpr std::size_t kTermGroup = 16;      ///< triangles per group: vertices are read in whole groups
+/// Numbers of triangles and rows are rounded up to multiples of this, so that kernels process no partial groups.
+inline constexpr std::size_t kTermGroup = 16;
 
 // Thresholds for sums, as fractions of their weights. Below kVanished, a sum consists of rounding errors of normals
 // that cancel. Below kDoubtful, the rounding of single-precision angles matters, so the sum is recomputed with angles

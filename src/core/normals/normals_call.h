@@ -188,9 +188,9 @@ inline constexpr std::size_t kPaddingVectors = 2;
 /// Converts the means by angle * area to the normals of `best`, in place; then performs options.refine steps.
 ///
 /// adding_corners  3, or 1 if only the first corner of each triangle contributes
-/// normals         one per group, zero where a mean vanished; undefined values there afterwards
-/// sharp           the means by `max`, or zero where one vanished, and kPaddingVectors more; empty: computed from the same
-///                 triangles. Where one vanished, the mean by angle * area is kept
+/// normals         in/out, one per group; a zero input (a mean that vanished) results in an undefined output
+/// sharp           means by `max`, one per group, followed by kPaddingVectors unused entries; empty: computed from
+///                 `triangles`. Where a mean is zero (it vanished), the mean by angle * area is kept
 ///
 /// Scratch memory: 24 bytes per group with `sharp`, and SumRounds. Linear. Throws OutOfMemory.
 void refine(const NormalsCall& call, const TriangleGroups& triangles, std::size_t adding_corners,

@@ -204,8 +204,8 @@ class RangeWork {
         size_ += static_cast<std::uint32_t>(count);
     }
 
-    /// Computes the cases that the kernel skips: degenerate triangles, weights of `max`, and rows of the mesh in
-    /// addition to rows of the pose.
+    /// Handles what the kernel does not: counts degenerate triangles, computes the weights of `max`, and sets the
+    /// weight of a repeated corner of a collapsed edge to 0. With a pose, such a triangle need not be degenerate.
     void computeSpecialCases() {
         for (std::size_t t = size_; t < size_ + batch_.count; ++t) {
             LocalTriangle& triangle = memory_.triangles[t];

@@ -26,7 +26,8 @@ inline constexpr double kLinear = kHalfEdge * (1 - kWarp), kCubic = kHalfEdge * 
 inline Floats warped(Floats u) {
     return u * (broadcast(static_cast<float>(kLinear)) + broadcast(static_cast<float>(kCubic)) * (u * u));
 }
-/// Return p of a column (x or z), and of a row: twice y, plus 1 in shifted columns.
+/// Return the component of p for a column index (x or z), and for a row index. `twice_y`: 2 y, plus 1 in columns that
+/// are shifted by half a step.
 inline Floats atColumn(Floats x) { return warped((x - broadcast(kSide)) * broadcast(1.0f / kSide)); }
 inline Floats atRow(Floats twice_y) { return warped((twice_y - broadcast(kRows)) * broadcast(1.0f / (kRows - 1))); }
 

@@ -180,8 +180,8 @@ class Decoder {
         if (packed.mode != kTriangles) json["mode"] = kTriangles;
     }
 
-    /// Checks the declared size of accessors before values are decoded: against the user's limit, or against the limit
-    /// for Draco data, to which it is charged.
+    /// Checks the declared size of accessors before values are decoded. With a memory limit of the user, it must fit
+    /// into that limit; otherwise it is subtracted from the budget for Draco data.
     void takeFromBudget(std::uint64_t bytes, const std::string& place) {
         if (document_.memory->isFromUser()) {
             document_.memory->require(bytes * kWorkFactor, place);

@@ -371,10 +371,12 @@ void Editor::unpackView(std::size_t index) {
     changed_ = true;
 }
 
-/// Returns the buffer for the decoded form of views whose only data in the file is compressed.
+/// Returns the fallback buffer: it has no data in the file, and holds the decoded bytes of views that are stored only
+/// compressed.
 std::size_t Editor::fallbackBuffer() {
     if (fallback_buffer_) return *fallback_buffer_;
-    targetBuffer();  // must come first: with a new BIN, buffer 0 changes
+    // Must come first: if the document has no buffers, a new BIN must get index 0, before the fallback buffer is added.
+    targetBuffer();
     for (std::size_t i = 0; i < document_.buffers.size(); ++i) {
         if (document_.buffers[i].source == BufferSource::decoded) fallback_buffer_ = i;
     }

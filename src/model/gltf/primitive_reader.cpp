@@ -84,8 +84,9 @@ std::size_t vectorSize(const Accessor& accessor) {
     return accessor.type.starts_with("VEC") ? accessor.component_count : 0;
 }
 
-/// Returns whether joints and weights have the same number of components, so that the missing components are influences
-/// that no vertex has. A component that only the weights lack need not be zero: readers compute it from the others.
+/// Returns whether joints and weights of a set have one element per vertex and the same number of components. The
+/// missing components are then unused influences and can be filled with zeros. If only the weights have fewer
+/// components, zeros may be wrong: readers compute the missing weight from the others.
 bool lackSameInfluences(const Document& document, const Primitive& primitive, const std::string& name) {
     const std::string set = name.substr(name.find('_'));
     const auto joints = primitive.find("JOINTS" + set), weights = primitive.find("WEIGHTS" + set);

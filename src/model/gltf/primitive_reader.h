@@ -79,7 +79,7 @@ struct Primitive {
     /// Invalid attributes; not contained in `attributes` or `targets`, and treated as missing.
     std::vector<AttributeFault> attribute_faults = {};
     std::size_t vertex_count = 0;
-    std::size_t corner_count = 0;  ///< number of indices, or of vertices without indices
+    std::size_t corner_count = 0;  ///< number of indices; without indices, number of vertices
 
     /// Returns the JSON pointer.
     [[nodiscard]] std::string place() const {

@@ -13,7 +13,7 @@
 
 namespace tspace::gltf {
 
-// Looks of the primitives of a document, and their placements by its nodes.
+// Looks (material data) of a document's primitives, and their placements in the scene by its nodes.
 
 /// Reads the look of the primitive's own material. Fails with invalidFile.
 SurfaceLook readLook(const Document& document, const Primitive& primitive);

@@ -171,7 +171,8 @@ std::string pathOfUri(std::string_view uri) {
 }
 
 std::string checkedPathOfUri(std::string_view uri, bool allow_external, const std::string& place) {
-    if (uriKind(uri) != UriKind::path) refuseUri(uri, "has a scheme other than data, which tspace never loads", place);
+    if (uriKind(uri) != UriKind::path)
+        refuseUri(uri, "has a scheme that tspace never loads; use a data URI or the path of a file", place);
     if (uri.starts_with(':'))
         failFile(ErrorCode::invalidFile, "the URI " + inQuotes(uri, 200) + " has an empty scheme before its colon",
                  place);

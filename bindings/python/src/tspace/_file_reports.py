@@ -148,7 +148,7 @@ class RemedyCommand:
     inputs: Tuple[str, ...]
     #: Options in the order of the command line.
     options: Tuple[RemedyOption, ...]
-    #: Words among inputs and values that the user replaces, such as "OUT.png".
+    #: Placeholders in inputs and option values, which the user must replace, such as "OUT.png".
     placeholders: Tuple[str, ...]
     #: Command line, as in "remedy".
     line: str

@@ -161,7 +161,7 @@ class FixedTriangle {
 };
 
 FixedCorner fixedCorner(const SeenPoint& p) {
-    // NaN can result from clipping enormous triangles, and becomes a limit.
+    // Clipping enormous triangles can produce NaN; fmax and fmin replace it by a limit of the range.
     const auto fixed = [&](double x) {
         const double inside = std::fmin(std::fmax(x / p.w, -kMaxSamples), kMaxSamples);
         return static_cast<std::int64_t>(std::floor(inside * kSampleParts + 0.5));

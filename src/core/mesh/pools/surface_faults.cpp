@@ -141,8 +141,8 @@ class Sheets {
         return at(t, 0) == at(t, 1) || at(t, 1) == at(t, 2) || at(t, 2) == at(t, 0);
     }
 
-    /// Adds a quad if it is flat, because the two pairs of faces of a tetrahedron also have the same four points.
-    /// `from` runs from the point with the lower index to the other one.
+    /// Adds a quad if it is flat. Others are rejected: the two pairs of faces of a tetrahedron also share four points,
+    /// but are no two-sided sheet. `from` runs from the point with the lower index to the other one.
     void addQuad(const EdgeUse& from, const EdgeUse& back, std::vector<Side<4>>& quads) const {
         constexpr double kFlat = 1e-6;
         if (isCollapsed(from.triangle) || isCollapsed(back.triangle)) return;

@@ -275,8 +275,9 @@ RotatedTriangles rotatedBy(const PositionRounding& rounding, StridedSpan<const V
         if (!(size > 0) || !std::isfinite(size)) continue;
         ++turned.total;
         whole += size;
-        // Root mean square values: a corner moves along N by a third of the maximum error, and this movement of two
-        // corners rotates the plane by their distance over the height of the triangle.
+        // Root mean square values: each corner moves along N by a third of the maximum error. The relative movement of
+        // two corners is sqrt(2) times as large; divided by the height of the triangle, it is the sine of the plane's
+        // rotation.
         const double longest = std::max({length(e), length(f), length(f - e)});
         const double sine = std::sqrt(2.0) / 3 * rounding.error * longest / size;
         const double deg = sine >= 1 ? 90 : polarAngle(std::sqrt(1 - sine * sine), sine) * 180 / kPi;

@@ -47,7 +47,8 @@ struct GridOrder {
         return found;
     }
 
-    /// Returns the reference's box: of the corner list without its first entry, starting from corner 0 of the mesh.
+    /// Returns the bounding box that the reference computes: of corner 0 of the mesh and of all entries of the corner
+    /// list except the first.
     [[nodiscard]] Box boxOfList() const {
         Box box(loadVec3(in.mesh.positions[in.mesh.indices[0]]));
         for (std::size_t i = 1; i < 3 * in.triangles.count; ++i) box.add(loadVec3(in.mesh.positions[in.vertexAt(i)]));

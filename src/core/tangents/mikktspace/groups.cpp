@@ -202,8 +202,8 @@ void Grouping::spreadContested(const Allocator* allocator) {
     }
 }
 
-/// Returns whether a triangle joins a group. A triangle that is not contested joins any group; a contested one adopts
-/// the orientation of the first group that reaches it.
+/// Returns whether a triangle joins a group of orientation `facing`. A triangle with UV area needs this orientation.
+/// One without joins any group; if it is contested, it adopts the orientation of the first group that reaches it.
 bool Grouping::joinsContested(std::uint32_t triangle, std::uint32_t facing) {
     std::uint8_t& flags = corners_.flags[triangle];
     if ((flags & (kAny | kContested)) == kAny) return true;

@@ -20,9 +20,10 @@ namespace tspace::mikk {
 // Detection of fans: determines whether the triangles around a node form one connected fan, while they are visited in
 // ascending order.
 //
-// The rule of groups.h links a triangle's leaving half-edge (to the next node) with the oldest waiting arriving
-// half-edge from that node, and vice versa. As long as no two half-edges of one direction wait for the same neighbor,
-// links are unambiguous and form paths, each of which is described by its two waiting ends. A Fan stores two paths.
+// The rule of groups.h links a triangle's outgoing half-edge (to the next node) with the oldest incoming half-edge from
+// that node that is not linked yet, and vice versa. As long as no two half-edges of one direction wait for the same
+// neighbor, links are unambiguous and form paths, each of which is described by its two waiting ends (`leaves`: an
+// outgoing half-edge, `arrives`: an incoming one). A Fan stores two paths.
 // More may start before they meet, if triangles are in random order or the second triangles of all quads follow the
 // first ones: such a fan uses a ManyPaths of four paths until two are left. A fifth path, an ambiguous link, or a ring
 // in addition to other paths makes the fan complex, and its node is handled by the vertex path.

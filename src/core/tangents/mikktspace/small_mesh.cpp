@@ -256,7 +256,8 @@ class SmallMesh {
             transpose4(x, y, z, w);
             const Float4 inverse = splat(1) / sqrt4(dot(Vec3x4{x, y, z}, Vec3x4{x, y, z}));
             const auto counts = [](Float4 c) { return (c > splat(FLT_MIN)) | (c < splat(-FLT_MIN)); };
-            const Mask4 not_zero = counts(x) | counts(y) | counts(z);  // components that count as nonzero, as in unit()
+            // vectors with a component that counts as nonzero, as in unit()
+            const Mask4 not_zero = counts(x) | counts(y) | counts(z);
             x = select4(not_zero, inverse * x, x);
             y = select4(not_zero, inverse * y, y);
             z = select4(not_zero, inverse * z, z);

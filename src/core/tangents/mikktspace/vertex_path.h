@@ -91,7 +91,7 @@ struct VertexCorners {
     [[nodiscard]] std::uint32_t triangleOf(std::size_t t) const {
         return found.empty() ? static_cast<std::uint32_t>(t) : found[t];
     }
-    /// Returns the number in the mesh of a half-edge of these triangles.
+    /// Converts the index of a half-edge among these triangles to its index in the mesh.
     [[nodiscard]] std::uint32_t halfEdgeOf(std::uint32_t half_edge) const {
         return 3 * triangleOf(half_edge / 3) + half_edge % 3;
     }
@@ -108,7 +108,7 @@ EvaluationPlan planChosen(const VertexPath& path);
 
 /// Computes the tangents of the mesh's own pose: simple nodes in one pass (one_pass.cpp), complex ones by the vertex
 /// path. Does not support angular thresholds below 180 degrees. `transient`: scratch memory for data that are not read
-/// after tangents are written, so that it may be in the output. `range_shift`: log2 of the number of nodes per range;
+/// after tangents are written, so it may overlap the output. `range_shift`: log2 of the number of nodes per range;
 /// 0: chosen for the mesh. Throws OutOfMemory.
 TangentReport evaluateInOnePass(const NodeSetting& setting, const TangentOutput& out, ScratchBlock& transient,
                                 Parallel& parallel, unsigned range_shift = 0);

@@ -161,7 +161,8 @@ std::string readAttribute(const draco::Mesh& mesh, DracoAttribute& to) {
     const draco::PointAttribute& values = original ? *original : *stored;
     if (static_cast<std::size_t>(values.num_components()) != to.component_count)
         return name + " has a different number of components than its accessor";
-    if (!is_sound || !copyAs(values, *stored, mesh.num_points(), to)) return name + " does not match its accessor";
+    if (!is_sound || !copyAs(values, *stored, mesh.num_points(), to))
+        return "the values of " + name + " are damaged or cannot be converted to the component type of its accessor";
     return {};
 }
 
