@@ -211,7 +211,7 @@ Result<std::vector<Job>> jobsIntoFolder(const JobRequest& request) {
                 job.error =
                     usage("the output " + job.output + " is one of the inputs; use another folder or --in-place");
             } else if (!is_new) {
-                job.error = usage("the output " + job.output + " is already that of " + writer->second);
+                job.error = usage("the output " + job.output + " is already the output of " + writer->second);
             }
         }
         jobs.push_back(std::move(job));

@@ -6,13 +6,13 @@
 #include <string_view>
 #include <type_traits>
 
-#include "textures/texture_levels.h"
-#include "images/texture_vectors.h"
 #include "core/base/vec_math.h"
 #include "exports.h"
 #include "images/codecs.h"
 #include "images/image.h"
+#include "images/texture_vectors.h"
 #include "images/textures/texture_file.h"
+#include "textures/texture_levels.h"
 
 using namespace tspace;
 using namespace tspace::js;
@@ -269,7 +269,8 @@ std::uint32_t compressMap(const ImageWords* given, const ImageWords* roughness, 
         rough = {other->width, other->height, std::move(other->texels)};
         if (const std::string why = whyGridsDiffer(rough, image->width, image->height); !why.empty())
             return fail(ErrorCode::invalidOption, "the roughness: " + why);
-        if (!other->alpha.empty()) made_report.warnings.emplace_back("alpha of the roughness texture is ignored");
+        if (!other->alpha.empty())
+            made_report.warnings.emplace_back("the alpha channel of the roughness texture is ignored");
     }
     Parallel parallel({});
     MapLevels map = makeMapLevels(*std::move(image), options, roughness != nullptr, false, parallel, made_report);

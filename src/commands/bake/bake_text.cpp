@@ -12,12 +12,12 @@ std::string degreesText(double degrees) { return fmt::format("{:.4f}", degrees);
 
 std::string raysText(const BakedFile& file) {
     const MapError& error = file.map.error;
-    if (file.rays.has_cage) return fmt::format("from the cage to {:.4g} below the low poly", error.reach);
+    if (file.rays.has_cage) return fmt::format("from the cage to {:.4g} units below the low poly", error.reach);
     const std::string directions = directionsWord(file.rays);
     if (file.rays.target == RayTarget::nearest)
         return fmt::format("nearest front face within {:.4g} units; directions: {}", error.reach, directions);
     return fmt::format(
-        "outermost front face, from a cage {:.4g} units above the low poly to {:.4g} below it; directions: {}",
+        "outermost front face, from a cage {:.4g} units above the low poly to {:.4g} units below it; directions: {}",
         error.cage_offset, error.reach, directions);
 }
 

@@ -87,7 +87,7 @@ std::optional<Finding> constantFinding(const std::string& name, const RgbImage& 
     Finding finding = noteOn(FindingCode::normalMapConstant, count, count,
                              "the map is a single color: all texels of " + name + " are " + texelText(first) +
                                  (is_flat     ? ", so the map is flat"
-                                  : is_vector ? ", a single direction that is not that of a flat map"
+                                  : is_vector ? ", so all normals have the same direction, which is not (0, 0, 1)"
                                               : ", which is not a normal"));
     if (!is_flat) finding.severity = Severity::warning;
     return finding;

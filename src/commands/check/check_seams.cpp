@@ -198,7 +198,7 @@ class MeshSeams {
         tally.vertices = seam.vertices;
         Finding finding =
             makeFinding(FindingCode::normalSeam, Severity::note, tally, "positions",
-                        "an edge is visible on a smooth surface: its normals and those of primitive " +
+                        "an edge is visible on a smooth surface: the normals of this primitive and of primitive " +
                             std::to_string(second.primitive) + " differ by up to " + decimalText(seam.worst_deg) +
                             " degrees at " + std::to_string(seam.likely.size()) +
                             " positions of their common border; the normals of each primitive are computed from its "

@@ -288,7 +288,8 @@ void addExplanation(PrimitiveFacts& facts, const FrameHealth& health, const Othe
                   std::to_string(other.reading.uv_set) + ", but the texture uses " + set;
         if (!other.use && !whyTangentsAreWrong(health, facts.options).empty()) severity = Severity::error;
     }
-    if (other.use) message += "; " + facts.primitive.uses[*other.use].needed_by + " uses these UVs";
+    if (other.use)
+        message += "; " + facts.primitive.uses[*other.use].needed_by + " uses the UVs that the tangents follow";
     facts.add(code, severity, wrong, "vertices", message);
     // The vertices are faulty even if another texture uses the UVs that the tangents fit, because the first texture
     // decides.

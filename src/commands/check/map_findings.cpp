@@ -13,11 +13,14 @@ namespace tspace {
 namespace {
 
 constexpr const char* kDoubt =
-    "; but if they are read as x and y, they are not the slopes of any height field, so they may use another encoding";
+    "; but if the two channels are read as x and y, they are not the slopes of any height field, so they may use "
+    "another "
+    "encoding";
 
 constexpr const char* kOctahedral =
-    "; but they fit the slopes of a height field better as octahedral encoding, x and y of (x, y, z) / (|x| + |y| + "
-    "|z|), so they may store that";
+    "; but the two channels fit the slopes of a height field better as octahedral encoding, x and y of (x, y, z) / "
+    "(|x| "
+    "+ |y| + |z|), so they may store this encoding";
 
 /// Returns the text that a message on two channels adds if x and y are only one of several interpretations.
 const char* doubtOf(const MapAnalysis& analysis) {
@@ -187,7 +190,8 @@ Remedy remedyOf(const NamedImage& image, const MapAnalysis& analysis, bool green
     if (analysis.content == MapContent::height) {
         RemedyCommand command = withOption(imageCommand("height-to-normal", image), "strength", "S");
         command.placeholders.emplace_back("S");
-        return {"Make a normal map from it: {}, where S is the height of white above black.", {std::move(command)}};
+        return {"Make a normal map from the height map: {}, where S is the height of white above black.",
+                {std::move(command)}};
     }
     if (analysis.content == MapContent::objectSpace) return objectSpaceRemedy(image, analysis, green_is_down);
     if (analysis.is_doubtful) {

@@ -26,7 +26,9 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "keep them: any tangent in the plane of the surface is valid there."},
     {"normalsMissing", "No action is needed if flat shading is intended; otherwise export the mesh with normals."},
     {"normalsNotFinite", "Export the normals again."},
-    {"normalsNotUnit", "Normalize them: {}. Tangents that do not fit them are repaired too.", {"generate --repair"}},
+    {"normalsNotUnit",
+     "Normalize the normals: {}. Tangents that do not fit them are repaired too.",
+     {"generate --repair"}},
     {"normalsAgainstWinding",
      "Reverse either the normals or the winding (recalculate outside), whichever is wrong; then recompute the "
      "tangents."},
@@ -38,7 +40,7 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      {"generate --strip"}},
     {"tangentsIgnored", "Run {}, which adds normals too; or export the mesh with normals.", {"generate"}},
     {"tangentsNotFinite", "Recompute those tangents: {}.", {"generate --repair"}},
-    {"tangentsNotUnit", "Normalize them, and recompute those of length 0: {}.", {"generate --repair"}},
+    {"tangentsNotUnit", "Normalize the tangents, and recompute those of length 0: {}.", {"generate --repair"}},
     {"tangentsNotOrthogonal",
      "Make those tangents perpendicular to the normals of the file: {}.",
      {"generate --repair"}},
@@ -115,7 +117,9 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
     {"normalMapInObjectSpace",
      "To fix the map in the model: {}. To fix the image alone: {}",
      {"generate --fix-maps", "convert-map MAP -o OUT.png --from object --mesh MODEL"}},
-    {"normalMapIsHeight", "Make a normal map from it: {}", {"height-to-normal MAP -o OUT.png --strength S"}},
+    {"normalMapIsHeight",
+     "Make a normal map from the height map: {}",
+     {"height-to-normal MAP -o OUT.png --strength S"}},
     {"normalMapScale",
      "Set the scale of the texture to a value above 0, or remove the normal map if no relief is intended."},
     {"normalMapIsPicture",
@@ -128,7 +132,8 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "Convert the source again to PNG or lossless WebP, or to UASTC if it must be small. For engines, compress the "
      "source to a separate BC5 texture with tspace compress-map."},
     {"normalMapLevels",
-     "Write all mip levels with the program that compressed it. For engines, compress the source to a separate BC5 "
+     "Write all mip levels with the program that compressed the map. For engines, compress the source to a separate "
+     "BC5 "
      "texture with all mip levels with tspace compress-map."},
     {"normalMapLengths",
      "Normalize the vectors, unless their lengths are intended. Renderers normalize after filtering, so lengths only "

@@ -93,7 +93,8 @@ class MapCompression {
             RoughnessLevel level{image.width, image.height, std::move(image.texels)};
             if (const std::string why = whyGridsDiffer(level, map.width, map.height); !why.empty())
                 failFile(ErrorCode::invalidOption, why);
-            if (!image.alpha.empty()) report_.warnings.emplace_back("alpha of the roughness texture is ignored");
+            if (!image.alpha.empty())
+                report_.warnings.emplace_back("the alpha channel of the roughness texture is ignored");
             return level;
         } catch (FileError& failure) {
             failure.error.message = "the roughness " + pathInQuotes(options_.roughness) + ": " + failure.error.message;

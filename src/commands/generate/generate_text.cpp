@@ -90,8 +90,8 @@ std::string convertedMapText(const ConvertedMapReport& map) {
     const std::string name =
         fmt::format("{} in {}", imageText(map.image, map.name), counted(map.primitive_count, "primitive"));
     if (!map.converted) return fmt::format("{}: unchanged: {}", name, printable(map.reason));
-    return fmt::format("{}: converted with {} bits, mean error {:.2g} degrees (unconverted {:.2g})", name, map.bits,
-                       map.mean_error_deg, map.mean_error_unconverted_deg);
+    return fmt::format("{}: converted with {} bits, mean error {:.2g} degrees (without conversion {:.2g})", name,
+                       map.bits, map.mean_error_deg, map.mean_error_unconverted_deg);
 }
 
 std::string normalMapText(const NormalMapReport& map) {
@@ -123,7 +123,7 @@ std::string windingText(const std::vector<MendedWindingReport>& windings) {
     }
     std::string text = fmt::format("{} of {} flipped", sum.turned_count, counted(sum.face_count, "face"));
     if (sum.turned_component_count != 0)
-        text += fmt::format(", including {} as a whole", counted(sum.turned_component_count, "part"));
+        text += fmt::format(", including most or all faces of {}", counted(sum.turned_component_count, "part"));
     text += fmt::format("; edges with inconsistent winding: {} before, {} after", sum.conflict_count_before,
                         sum.conflict_count_after);
     if (sum.one_sided_count != 0) text += fmt::format("; {} not orientable", counted(sum.one_sided_count, "part"));

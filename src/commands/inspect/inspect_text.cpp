@@ -47,7 +47,7 @@ void addUseRows(const PrimitiveInfo& primitive, Table& table) {
                                   use.material_name.empty() ? std::to_string(use.material)
                                                             : "'" + printable(use.material_name) + "'",
                                   use.only_in_variant ? " (a variant)" : "", use.uv_set, transformText(use),
-                                  use.follows_first ? "" : "; needs different tangents than the first")});
+                                  use.follows_first ? "" : "; needs different tangents than the first use")});
     }
 }
 

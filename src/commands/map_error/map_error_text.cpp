@@ -47,7 +47,7 @@ std::string mapErrorText(const Outcome<MapErrorFileReport>& outcome) {
         table.addRow({i == 0 ? "rays" : "",
                       fmt::format("{:.4f} degrees: {}", done.rays[i].error.mean_deg, raysText(done.rays[i]))});
     if (error.hidden_count > 0)
-        table.addRow({"note", fmt::format("{} of {} samples would hit another front face of the high poly farther out",
+        table.addRow({"note", fmt::format("at {} of {} samples, another front face of the high poly lies farther out",
                                           error.hidden_count, error.missed_count + error.point_count)});
     if (error.missed_count > 0)
         table.addRow(

@@ -232,7 +232,7 @@ Document parseDocument(Bytes file_bytes, const Path& path, const FileOptions& op
     ParsedJson parsed = parseJson(text, document.memory.get());
     document.json = std::move(parsed.root);
     document.style = parsed.style;
-    checkVersion(document.json);  // must come first: glTF 1.0 has objects where 2.0 has arrays
+    checkVersion(document.json);  // must come first: the arrays of glTF 2.0 are objects in 1.0
     checkRoot(document.json);
     takeEntries(document);
     const Json& buffers = rootArray(document, "buffers");

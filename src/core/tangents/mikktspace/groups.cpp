@@ -59,7 +59,7 @@ void linkSmall(std::span<const NodeCorner> around, const CornerLinks& links) {
 }
 
 /// Links the corners of a node with many corners, by sorting its half-edges. Sort keys: the neighbor in the high word;
-/// 2 * corner in the low word, plus 1 for the leaving edge. All waiting half-edges of one neighbor have the same
+/// 2 * corner in the low word, plus 1 for the outgoing edge. All waiting half-edges of one neighbor have the same
 /// direction, so the oldest is the partner of the next opposite one.
 void linkLarge(std::span<const NodeCorner> around, const CornerLinks& links, std::uint64_t* half_edges) {
     const std::size_t count = 2 * around.size();
@@ -144,8 +144,8 @@ void Grouping::applyBucket(std::span<const NodeCorner> around, const CornerLinks
     };
     for (std::size_t i = 0; i < around.size(); ++i) {
         const std::uint32_t h = corners_.halfEdgeOf(around[i].half_edge);
-        // A partner has the opposite direction: the partner of the leaving edge arrives at the node, and the partner of
-        // the arriving edge leaves it.
+        // A partner has the opposite direction: the partner of the outgoing edge ends at the node, and the partner of
+        // the incoming edge starts there.
         if (const std::uint32_t* partner = bucket_.partnerOf(h))
             links.left[i] = *partner == kNone ? kNone : placeOf(turn(*partner, 1));
         if (const std::uint32_t* partner = bucket_.partnerOf(turn(h, 2)))
