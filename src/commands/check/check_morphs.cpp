@@ -344,7 +344,7 @@ bool isThin(const TangentView& mesh, std::size_t face, float area) {
 void excludeCollapsed(const TangentView& mesh, const Surface& base, const TangentView& morphed_mesh,
                       const Surface& morphed, const EqualVertices& equal, std::vector<bool>& good) {
     constexpr float kCollapsed = 1e-4f;            // ratio of the areas; corresponds to 1 percent along each side
-    constexpr double kFlipped = -0.8660254037844;  // cosine of 150 degrees, as in SurfaceRotations
+    constexpr double kFlipped = -0.8660254037844;  // cosine of 150 degrees, the limit of SurfaceRotations (surface.cpp)
     std::vector<bool> is_out(equal.class_count, false);
     for (std::size_t f = 0; f < base.faces.size(); ++f) {
         const SurfaceFrame &before = base.faces[f], &after = morphed.faces[f];

@@ -15,7 +15,7 @@ namespace tspace {
 
 struct VertexFaults {
     std::uint32_t vertex = 0;
-    std::uint32_t bits = 0;  ///< fault bits as in FrameHealth::faults
+    std::uint32_t bits = 0;  ///< fault bits, see FrameHealth::faults (frame_health.h)
 };
 
 /// States whether the normal maps of a primitive cancel its wrong signs.

@@ -448,7 +448,7 @@ OptionList convertMapOptions(ConvertMapFileOptions& options) {
 }
 
 std::string finish(const Given& given, ConvertMapFileOptions& options) {
-    // Options for conventions are applied before the others, in any order on the command line.
+    // Options for conventions are applied before the others, whatever their order on the command line.
     for (const Given::Item& item : given.items) {
         const std::string& name = item.option->name();
         if (name == "--from-bitangent" || name == "--to-bitangent") item.option->take(item.value);

@@ -69,7 +69,7 @@ void eraseAttribute(Editor& editor, const Primitive& primitive, const char* name
 /// fans and primitives without indices. Primitives that draw the same triangles of the same vertices share a new list
 /// if they shared the old one.
 ///
-/// new_file    as for Editor
+/// new_file    name of the buffer file for new data, see Editor (model/gltf/editor.h)
 /// primitives  primitives of the document; read them again afterwards
 /// flipped     per primitive: one entry per triangle, 1 to flip it; or empty: no triangle is flipped
 void flipTriangles(Document& document, const std::string& new_file, std::span<const Primitive> primitives,

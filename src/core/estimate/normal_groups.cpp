@@ -15,7 +15,7 @@ CornerGroups::CornerGroups(const NormalsCall& call, Buffer<std::uint32_t> compon
     if (numbers_.empty()) return;
     std::uint32_t count = 0;
     for (std::uint32_t c = 0; c < numbers_.size(); ++c) {
-        // the component's first corner; if it is not c, its entry is already its number
+        // first corner of c's component; if it precedes c, its entry already contains the number of the group
         const std::uint32_t lowest = numbers_[c];
         numbers_[c] = lowest == c ? count++ : numbers_[lowest];
     }

@@ -50,7 +50,7 @@ constexpr double kNoTrust = 1e12;  // maximum doubt, large enough that a blend h
 
 constexpr std::size_t kFitStep = 12 * kFitRows;  // floats per triangle
 
-// Values at which a refinement step has half of its effect, tuned like the doubts above.
+// Values at which a refinement step has half of its effect, tuned on the same meshes as kNoise.
 constexpr double kStepLeft = 0.5;          // ratio of the unexplained to the explained change of the normal
 constexpr double kStepNoise = 1.0 / 30.0;  // ratio of the unexplained change to the bend of the edges
 
@@ -284,7 +284,7 @@ inline Vectors fittedNormal(const Plane& plane, const PointSums& s, const Slopes
             select(sound, inverse * n.z, plane.n.z)};
 }
 
-/// Limits x to kNoTrust, which an overflow also becomes. 0/0 becomes 0: it occurs on a plane, where all normals are
+/// Limits x to kNoTrust; an overflow becomes kNoTrust too. 0/0 becomes 0: it occurs on a plane, where all normals are
 /// equal and trust does not matter.
 inline Floats bounded(Floats x) {
     const Floats most = broadcast(static_cast<float>(kNoTrust));

@@ -76,7 +76,8 @@ struct BestSource {
 };
 
 inline constexpr std::size_t kBestTriangles = 32;  ///< triangles per block
-inline constexpr std::size_t kBestGroup = 16;      ///< SIMD lanes: vertices and points are read in whole groups
+/// Numbers of triangles and points are rounded up to multiples of this, so that kernels process no partial groups.
+inline constexpr std::size_t kBestGroup = 16;
 /// rows of four floats in the fit; the last row contains maxima instead of sums
 inline constexpr std::size_t kFitRows = 8;
 inline constexpr std::size_t kStepRows = 2;  ///< rows of four floats in a step

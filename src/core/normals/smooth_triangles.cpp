@@ -36,14 +36,14 @@ struct PointSum {
     [[nodiscard]] float* floats() { return reinterpret_cast<float*>(this); }
     [[nodiscard]] const float* floats() const { return reinterpret_cast<const float*>(this); }
 
-    /// Returns whether the result has the mark although triangles contribute to it.
+    /// Returns whether the result is marked as having no normal although triangles contribute to it.
     [[nodiscard]] bool isDoubtful() const { return isMarked(loadFloat4(floats())) && weights > 0; }
     static bool isMarked(Float4 normal) { return (laneBits(std::bit_cast<Mask4>(normal)) & 8) != 0; }
 
     void setMark() { *this = {0, 0, 0, -0.0}; }
     [[nodiscard]] bool isTakenAgain() const { return std::signbit(weights); }
     void add(double weight, const DVec3& term) { *this = {x + term.x, y + term.y, z + term.z, weights - weight}; }
-    /// Replaces the sum by the unit mean, or sets the mark.
+    /// Replaces the sum by the unit mean, or marks it as having no normal.
     void finish() {
         const double length = std::sqrt(x * x + y * y + z * z);
         const bool has_mean = length > kVanished * -weights;
@@ -178,7 +178,7 @@ class TriangleSmoother {
         return substitutes;
     }
 
-    /// Writes a block. Returns false if a normal has the mark.
+    /// Writes a block. Returns false if a corner has no normal (see PointSum).
     bool writeBlock(const TriangleBatch& batch, const RangeSums& place) const {
         auto* to = reinterpret_cast<std::byte*>(&call_.out[std::size_t{3} * batch.numbers[0]]);
         // Local copies, which the compiler knows not to alias the arrays that are written.

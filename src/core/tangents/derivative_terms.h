@@ -20,7 +20,8 @@ struct TriangleSource {
 };
 
 inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block: one per bit of a mask
-inline constexpr std::size_t kTermGroup = 16;      ///< triangles and vertices per group: kernels read whole groups
+/// Numbers of triangles and vertices are rounded up to multiples of this, so that kernels process no partial groups.
+inline constexpr std::size_t kTermGroup = 16;
 
 /// Terms of a block of triangles, which are added to the sums of their vertices: six floats per triangle and vertex.
 struct DerivativeTerms {

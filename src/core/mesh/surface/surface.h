@@ -103,7 +103,7 @@ struct RotatedTriangles {
 RotatedTriangles rotatedBy(const PositionRounding& rounding, StridedSpan<const Vec3> positions,
                            std::span<const std::uint32_t> corners, double limit_deg);
 
-/// Minimum share of the surface: a smaller share may consist of a few slivers.
+/// Minimum share of the surface in rotated triangles that is reported: a smaller share may consist of a few slivers.
 inline constexpr double kLeastRotatedShare = 0.01;
 
 // Properties of a triangle: normal, area, direction of dP/du, and UV orientation.

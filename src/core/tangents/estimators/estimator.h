@@ -23,8 +23,9 @@ struct VertexSource : VertexArrays {
 };
 
 inline constexpr std::size_t kBlockTriangles = 32;  ///< triangles per block, whose rows fit into the L1 cache
-inline constexpr std::size_t kLaneGroup = 16;       ///< number of lanes per group: kernels process whole groups
-inline constexpr std::size_t kStepRows = 2;         ///< number of rows of four floats in a step
+/// Numbers of lanes are rounded up to multiples of this, so that kernels process no partial groups of lanes.
+inline constexpr std::size_t kLaneGroup = 16;
+inline constexpr std::size_t kStepRows = 2;  ///< number of rows of four floats in a step
 /// Number of floats per group that a step reads: dP/du and the share of the robust mean, then dP/dv and 0. A group with
 /// zeros is ignored.
 inline constexpr std::size_t kStepFloats = 8;
