@@ -40,13 +40,14 @@ test("ten models are opened and closed, and their memory is freed", { skip: miss
   });
 });
 
-test("a model of 100 MB shows progress, can be stopped, and is opened", { skip: missing, timeout: 1_800_000 }, async (t) => {
+test("a model of 100 MB shows progress, can be stopped, is opened, and its memory is freed when it is closed", { skip: missing, timeout: 1_800_000 }, async (t) => {
   const folder = mkdtempSync(join(tmpdir(), "tspace-large-")), path = join(folder, "large.glb");
   try {
     const bytes = gridGlb(300_000, 16);
     assert.ok(bytes.length > 100e6);
     writeFileSync(path, bytes);
     await withPage(async (tab) => {
+      const session = await tab.context().newCDPSession(tab), before = await held(tab, session);
       const choose = async () => {
         await tab.evaluate(() => {
           document.documentElement.dataset.state = "asked";
@@ -74,6 +75,12 @@ test("a model of 100 MB shows progress, can be stopped, and is opened", { skip: 
       assert.ok(new Set(values).size >= 4, `${values}`);
       assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "drawn");
       assert.match(await tab.locator(".looked").textContent(), /1 with tangents/);
+      const open = await held(tab, session);
+      await tab.getByRole("button", { name: "Close the model" }).click();
+      const closed = await held(tab, session);
+      t.diagnostic(`${before.megabytes.toFixed(1)} MB before, ${open.megabytes.toFixed(1)} MB open, ${closed.megabytes.toFixed(1)} MB closed`);
+      assert.ok(open.megabytes > before.megabytes + 100 && closed.megabytes < before.megabytes + 5, "its memory is freed");
+      assert.deepEqual([closed.geometries, closed.workers], [0, 0]);
     });
   } finally {
     rmSync(folder, { recursive: true, force: true });

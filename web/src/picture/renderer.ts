@@ -75,6 +75,8 @@ export class Picture {
     this.showRight(null);
     this.#world.remove(this.scene.root);
     this.scene.dispose();
+    // three.js references the arrays of the geometry that it drew last until it draws another one.
+    this.renderer?.resetState();
     this.scene = scene;
     this.#world.add(scene.root);
   }
