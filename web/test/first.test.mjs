@@ -58,6 +58,9 @@ test("at 390 pixels the picture and the button come first, and the panels are cl
     assert.ok(button.x + button.width <= light.x && button.height < 90, "the button lies beside the light, at the bottom edge");
     await fix(tab);
     assert.match(await seen(tab), /^Fixed: 1 error → 0 errors/);
+    await openSample(tab, "ring-directx.glb");
+    const [left, right] = await Promise.all([".side.left", ".side.right"].map((selector) => tab.locator(selector).boundingBox()));
+    assert.ok(left.x + left.width <= right.x, "the labels of both sides do not overlap");
   }, { width: 390, height: 844, hasTouch: true });
 });
 
