@@ -70,7 +70,7 @@ test("dropped files, folders and OBJs are shown and checked", { skip: missing },
 test("files that are not models, and missing files, are reported", { skip: missing }, async () => {
   await withPage(async (tab) => {
     assert.equal(await drop(tab, at("notes.txt")), "failed");
-    assert.match(await tab.locator(".failure").textContent(), /notes\.txt is no file that this page reads/);
+    assert.match(await tab.locator(".failure").textContent(), /notes\.txt has a format that this page does not support/);
     assert.equal(await drop(tab, at("box", "crate.gltf")), "failed");
     assert.match(await tab.locator(".failure").textContent(), /crate\.bin/);
     assert.equal(await drop(tab, at("crate.glb")), "ready");
@@ -82,7 +82,7 @@ test("a .gltf and its files may be dropped one after the other, and missing file
     assert.equal(await drop(tab, at("box", "crate.gltf")), "failed");
     assert.match(await tab.locator(".failure").textContent(), /crate\.bin, maps\/side 0\.png, maps\/side 1\.png\. Drop them together with the model/);
     assert.equal(await drop(tab, at("box", "crate.bin")), "ready");
-    assert.match(await tab.locator(".remark").textContent(), /not here: maps\/side 0\.png, maps\/side 1\.png/);
+    assert.match(await tab.locator(".remark").textContent(), /files that were not dropped: maps\/side 0\.png, maps\/side 1\.png\./);
     assert.equal(await drop(tab, at("box", "maps", "side 0.png"), at("box", "maps", "side 1.png")), "ready");
     assert.deepEqual(await shown(tab), { picture: "drawn", name: "crate.gltf", others: ["crate.bin", "maps/side 0.png", "maps/side 1.png", "side 0.png", "side 1.png"], codes: ["signsWrong"], maps: [true] });
   }, { allowMessages: true });
@@ -103,7 +103,7 @@ test("a zip is opened like a folder, with a choice of several models", { skip: m
     assert.equal(await settled(tab), "ready");
     writeFileSync(at("broken.zip"), "PK no zip");
     assert.equal(await drop(tab, at("broken.zip")), "failed");
-    assert.match(await tab.locator(".failure").textContent(), /broken\.zip is no zip file/);
+    assert.match(await tab.locator(".failure").textContent(), /broken\.zip is not a readable zip file/);
   });
 });
 
@@ -161,7 +161,7 @@ test("a fault of the page is not attributed to the file, whose findings are stil
     const bytes = Buffer.from(await tab.evaluate(() => [...window.tspaceView.model.bytes]));
     await tab.evaluate(() => (window.tspaceView.views.stage.viewport.reset = () => undefined.parts));
     await openBytes(tab, "crate.glb", bytes);
-    assert.match(await tab.locator(".remark").textContent(), /^The picture cannot be drawn: this page failed, which need not be the fault of the file \(TypeError: .*The findings do not depend on the picture/);
+    assert.match(await tab.locator(".remark").textContent(), /^The picture cannot be drawn: this page failed with an internal error \(TypeError: .*\), which does not mean that the file is damaged\. The findings do not depend on the picture/);
     assert.ok((await tab.locator(".finding").count()) > 0);
   }, { allowMessages: true });
 });

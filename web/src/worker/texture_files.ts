@@ -18,9 +18,9 @@ async function zstdDecoder(): Promise<ZSTDDecoder> {
 /** Returns whether a KTX2 uses Zstandard, according to its supercompression scheme at byte 44. */
 const isZstd = (file: Uint8Array): boolean => file.length > 48 && file[0] === 0xab && new DataView(file.buffer, file.byteOffset).getUint32(44, true) === 2;
 
-/** Explains formats that the page cannot read but the tool can, and what to do. */
+/** Explains formats that the page cannot read but the tool can, and what to do. Options of the package are omitted. */
 const inWords = (why: string): string =>
-  why.includes("ASTC") ? "it is a KTX2 with ASTC data, which this page cannot show; export it as PNG, JPEG or WebP, or as KTX2 with UASTC or ETC1S" : why;
+  why.includes("ASTC") ? "it is a KTX2 with ASTC data, which this page cannot show; export it as PNG, JPEG or WebP, or as KTX2 with UASTC or ETC1S" : why.replace(/; use the option .*$/, "");
 
 async function unpackersFor(file: Uint8Array) {
   const decoder = isZstd(file) ? await (zstd ??= zstdDecoder()) : null;
