@@ -187,8 +187,9 @@ function openFiles(dropped: Promise<Named[]> | Named[]): void {
     others.hidden = models.length < 2;
     replaceChildren(others, ...models.map((path) => el("option", { value: path }, path)));
     others.onchange = () => void app.open(() => chooseModel(files, others.value));
-    const chosen = await chooseModel(files);
-    if (!asked) void keepModel(chosen).then((isKept) => showKept(isKept ? chosen.name : null));
+    const chosen = await chooseModel(files), { name } = chosen;
+    // The functions here share one scope, which `others` keeps: none of them uses `chosen`, so that its bytes can be freed.
+    if (!asked) void keepModel(chosen).then((isKept) => showKept(isKept ? name : null));
     return chosen;
   });
 }
