@@ -16,7 +16,7 @@ std::uint64_t flipUnpackedBytes(ByteSpan bytes);
 /// Returns the format that flipping writes by default; sameAsInput for inputs that it can only write as PNG, or not at all.
 ImageFileFormat fileFormat(ImageFormat input);
 
-/// Does the same as flipGreen, without the memory check. Uses format and jpeg_quality of `options`.
+/// Inverts green like flipGreen, without the memory check. Uses format and jpeg_quality of `options`.
 Result<FlippedImage> flipImage(ByteSpan bytes, const FlipGreenOptions& options);
 
 /// PNG with inverted green, and everything else unchanged.
