@@ -22,6 +22,11 @@ std::string takeChannels(const std::string& letters, MapLayout& layout) {
     return {};
 }
 
+const char* channelName(MapChannel channel) {
+    constexpr const char* kNames[] = {"red", "green", "blue", "alpha", "no channel"};
+    return kNames[static_cast<std::size_t>(channel)];
+}
+
 bool readsAlpha(const MapLayout& layout) {
     return layout.x.channel == MapChannel::alpha || layout.y.channel == MapChannel::alpha ||
            layout.z.channel == MapChannel::alpha;
@@ -41,11 +46,8 @@ std::string applyLayout(FloatImage& image) {
     if (layout == MapLayout{}) return {};
     readTexels(layout, image);
     image.texture.layout = {};
-    constexpr const char* kNames[] = {"red", "green", "blue", "alpha", ""};
-    const auto nameOf = [&](const MapComponent& component) {
-        return kNames[static_cast<std::size_t>(component.channel)];
-    };
-    const std::string where = std::string("x is read from ") + nameOf(layout.x) + " and y from " + nameOf(layout.y) +
+    const std::string where = std::string("x is read from ") + channelName(layout.x.channel) + " and y from " +
+                              channelName(layout.y.channel) +
                               (layout.z.channel == MapChannel::none ? ", so z is reconstructed from them" : "");
     return "the map is " + image.texture.name +
            (image.texture.is_guessed ? ", whose texels look as if only x and y were stored: " : ": ") + where;

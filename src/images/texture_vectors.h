@@ -20,6 +20,9 @@ std::string takeChannels(const std::string& letters, MapLayout& layout);
 
 /// Returns whether alpha contains a component of the vectors.
 bool readsAlpha(const MapLayout& layout);
+/// Returns the name of a channel in texts.
+const char* channelName(MapChannel channel);
+
 
 /// Moves x, y and z of all texels to red, green and blue. Removes alpha if it contained a component.
 void readTexels(const MapLayout& layout, FloatImage& image);

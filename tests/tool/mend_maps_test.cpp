@@ -101,6 +101,16 @@ const Kind kKinds[] = {
          return Vec3{1, t.y, 1};
      },
      [](const Vec3& t) { return t.x; }},
+    {"normalMapChannels", "--channels ag", nullptr,
+     [](const Vec3& t) {
+         return Vec3{1, t.y, t.y};
+     },
+     [](const Vec3& t) { return t.x; }},
+    {"normalMapChannels", "--channels ag", nullptr,
+     [](const Vec3& t) {
+         return Vec3{t.z, t.y, t.z};
+     },
+     [](const Vec3& t) { return t.x; }},
     {"normalMapIsSrgb", "--srgb", nullptr,
      [](const Vec3& t) {
          return Vec3{curved(t.x), curved(t.y), curved(t.z)};
@@ -208,6 +218,55 @@ TEST(FixMaps, FixesExchangedRedAndGreen) {
     ASSERT_EQ(runTool(folder, "generate --fix-maps map.gltf -o mended.gltf").exit_code, 0);
     EXPECT_EQ(findingsIn(folder, "mended.gltf"), Json::array());
     EXPECT_LT(meanError(imageIn(folder, "map-mended.png"), right), 1);
+}
+
+TEST(FixMaps, ReadsXAndYFromGrayAndAlpha) {
+    const FloatImage right = floatsOf(normalMapOf(256, bumpsApart));
+    for (const bool is_x_in_alpha : {false, true}) {
+        const TempFolder folder;
+        FloatImage wrong = right;
+        for (Vec3& texel : wrong.texels) {
+            wrong.alpha.push_back(is_x_in_alpha ? texel.x : texel.y);
+            texel = is_x_in_alpha ? Vec3{texel.y, texel.y, texel.y} : Vec3{texel.x, texel.x, texel.x};
+        }
+        writeImage(folder, "map.png", wrong);
+        writeSquare(folder, "map");
+        const Json found = findingsIn(folder, "map.gltf");
+        ASSERT_EQ(found.size(), 1U) << found.dump(1);
+        const std::string places = is_x_in_alpha ? "x in alpha and y in red" : "x in red and y in alpha";
+        EXPECT_NE(found[0]["message"].get<std::string>().find(places), std::string::npos) << found[0]["message"];
+        const std::string command = std::string("--channels ") + (is_x_in_alpha ? "ar" : "ra");
+        EXPECT_TRUE(found[0]["remedy"].get<std::string>().ends_with(command)) << found[0]["remedy"];
+        const ToolRun run = runTool(folder, "generate --fix-maps map.gltf -o mended.gltf");
+        EXPECT_NE(run.out.find("the map stored " + places), std::string::npos) << run.out;
+        EXPECT_LT(meanError(imageIn(folder, "map-mended.png"), right), 1);
+    }
+}
+
+TEST(FixMaps, NamesBothOrdersOfGrayAndAlpha) {
+    const TempFolder folder;
+    const FloatImage right =
+        floatsOf(normalMapOf(128, [](double x, double y) { return 0.02 * std::sin(30 * x) * std::sin(30 * y); }));
+    FloatImage wrong = right;
+    for (Vec3& texel : wrong.texels) {
+        wrong.alpha.push_back(texel.x);
+        texel = {texel.y, texel.y, texel.y};
+    }
+    writeImage(folder, "map.png", wrong);
+    writeSquare(folder, "map");
+    const Json found = findingsIn(folder, "map.gltf");
+    ASSERT_EQ(found.size(), 1U) << found.dump(1);
+    const std::string remedy = found[0]["remedy"];
+    EXPECT_EQ(remedy.find("--fix-maps"), std::string::npos) << remedy;
+    for (const std::string letters : {"ra", "ar"}) {
+        const std::string command = "convert-map map.png -o OUT.png --channels " + letters;
+        EXPECT_NE(remedy.find("tspace " + command + ". "), std::string::npos) << remedy;
+        ASSERT_EQ(runTool(folder, command).exit_code, 0);
+        EXPECT_EQ(meanError(imageIn(folder, "OUT.png"), right) < 1, letters == "ar");
+    }
+    const ToolRun run = runTool(folder, "generate --fix-maps map.gltf -o mended.gltf");
+    EXPECT_NE(run.out.find("its slopes do not show which of red and alpha is x"), std::string::npos) << run.out;
+    EXPECT_EQ(findingsIn(folder, "mended.gltf")[0]["code"], "normalMapChannels");
 }
 
 TEST(FixMaps, NamesBothRotationsOfTheVectorsOfARotatedImage) {

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "commands/check/findings.h"
+#include "commands/check/map_alpha.h"
 #include "commands/check/map_slopes.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/numbers.h"

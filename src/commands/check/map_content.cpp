@@ -8,6 +8,7 @@
 
 #include "commands/check/mesh_regression.h"
 #include "commands/check/normal_map.h"
+#include "commands/check/texel_statistics.h"
 #include "core/base/vec_math.h"
 #include "maps/texels/gray.h"
 
@@ -16,35 +17,8 @@ namespace {
 
 /// Maximum deviation from 1 of an 8-bit vector's length after compression and filtering.
 constexpr double kLengthSlack = 0.1;
-/// Standard deviation, on a scale from 0 to 255, below which a channel is constant; compression alone may cause this
-/// much.
-constexpr double kConstant = 2.5;
 /// Minimum x^2 + y^2 of tilted texels; corresponds to a tilt of 11 degrees.
 constexpr double kMinTilt = 0.04;
-/// Maximum absolute mean of x and of y in a tangent-space map, for callers that know nothing else about the map.
-constexpr double kMaxMean = 0.25;
-
-struct Spread {
-    double mean = 0, deviation = 0;
-};
-
-template <class ValueOf>
-Spread spreadOf(std::span<const TexelBytes> texels, const ValueOf& valueOf) {
-    double sum = 0, squares = 0;
-    for (const TexelBytes& texel : texels) {
-        const double value = valueOf(texel);
-        sum += value;
-        squares += value * value;
-    }
-    const auto count = static_cast<double>(texels.size());
-    const double mean = sum / count;
-    return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean))};
-}
-
-template <class Test>
-double shareOf(std::span<const TexelBytes> texels, const Test& test) {
-    return static_cast<double>(std::count_if(texels.begin(), texels.end(), test)) / static_cast<double>(texels.size());
-}
 
 /// Share of texels that are unit vectors, and statistics of their directions.
 struct Fit {
@@ -80,27 +54,6 @@ bool pointsUp(const Fit& fit) {
     return fit.mean.z > 0.5 && std::fabs(fit.mean.x) < kMaxMean && std::fabs(fit.mean.y) < kMaxMean;
 }
 
-/// Returns x^2 + y^2 of two channels.
-double squareOf(const TexelBytes& texel, std::size_t x, std::size_t y) {
-    const double a = signedValue(texel[x]), b = signedValue(texel[y]);
-    return a * a + b * b;
-}
-
-/// Returns z of a unit vector with x in red and y in green.
-double expectedZ(const TexelBytes& texel) { return std::sqrt(std::max(0.0, 1 - squareOf(texel, 0, 1))); }
-
-/// Returns whether two channels can be x and y of unit vectors: nearly no texel is longer than 1, and both means are
-/// near 0.
-bool canBeXy(std::span<const TexelBytes> texels, std::size_t x, std::size_t y, double max_mean = kMaxMean,
-             double max_long = 0.01) {
-    constexpr double kLongest = 1.03;
-    const auto meanOf = [&](std::size_t channel) {
-        return spreadOf(texels, [&](const TexelBytes& texel) { return signedValue(texel[channel]); }).mean;
-    };
-    return shareOf(texels, [&](const TexelBytes& texel) { return squareOf(texel, x, y) > kLongest; }) < max_long &&
-           std::fabs(meanOf(x)) < max_mean && std::fabs(meanOf(y)) < max_mean;
-}
-
 /// Returns a function that returns red, green and blue of a texel (0 to 255).
 auto colorsOf(std::span<const TexelBytes> texels) {
     return [texels](std::size_t i) {
@@ -108,11 +61,6 @@ auto colorsOf(std::span<const TexelBytes> texels) {
         return std::array<double, 3>{static_cast<double>(texel[0]), static_cast<double>(texel[1]),
                                      static_cast<double>(texel[2])};
     };
-}
-
-bool isConstant(std::span<const TexelBytes> texels, std::size_t channel) {
-    return spreadOf(texels, [&](const TexelBytes& texel) { return static_cast<double>(texel[channel]); }).deviation <=
-           kConstant;
 }
 
 bool isGrayTexels(std::span<const TexelBytes> texels) { return isGray(texels.size(), colorsOf(texels)); }
@@ -217,10 +165,10 @@ class MapAnalyzer {
         if (blue.deviation > kConstant && channelCorrelations(texels_.size(), colorsOf(texels_))[0] > kMaxTogether)
             return {};
         double off = 0, wanted = 0, error = 0, product = 0, angle = 0;
-        const Spread up = spreadOf(texels_, [](const TexelBytes& texel) { return expectedZ(texel); });
+        const Spread up = spreadOf(texels_, [](const TexelBytes& texel) { return expectedZ(texel, 0, 1); });
         std::uint64_t count = 0;
         for (const TexelBytes& texel : texels_) {
-            const double z = expectedZ(texel);
+            const double z = expectedZ(texel, 0, 1);
             const double stored = signedValue(texel[2]), across = std::sqrt(squareOf(texel, 0, 1));
             error += std::fabs(stored - z);
             angle += std::fabs(std::atan2(across, stored) - std::atan2(across, z)) * 180 / kPi;
@@ -352,7 +300,7 @@ class MapAnalyzer {
     [[nodiscard]] bool mayPointUp(std::span<const TexelBytes> texels, const DVec3& mean) const {
         constexpr double kMinUp = 0.7, kMaxBelow = 0.1;
         constexpr std::uint8_t kZero = 127 - 16;  // tolerance for compression errors
-        const double below = shareOf(texels, [](const TexelBytes& texel) { return texel[2] < kZero; });
+        const double below = texelShare(texels, [](const TexelBytes& texel) { return texel[2] < kZero; });
         return (mean.z > kMinUp && below < kMaxBelow) || (channels_[2].deviation <= kConstant && canBeXy(texels, 0, 1));
     }
 
@@ -479,10 +427,6 @@ MapAnalysis analyzeTexels(std::span<const TexelBytes> texels, bool has_alpha, st
                           std::span<const TexelOnSurface> in_world) {
     if (texels.empty()) return {};
     return MapAnalyzer(texels, has_alpha, surface, in_world).analysis();
-}
-
-bool mayHaveXInAlpha(std::span<const TexelBytes> texels) {
-    return !texels.empty() && (isConstant(texels, 0) || isGrayTexels(texels));
 }
 
 bool isBlueConstant(std::span<const TexelBytes> texels) { return !texels.empty() && isConstant(texels, 2); }

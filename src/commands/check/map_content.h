@@ -17,7 +17,7 @@ enum class MapContent {
     normals,      ///< vectors in tangent space; also if nothing else was detected
     twoChannels,  ///< x and y in red and green; blue is unrelated to z
     unsignedZ,    ///< blue is z, not (z + 1) / 2
-    xInAlpha,     ///< x in alpha and y in green (DXT5nm)
+    xInAlpha,     ///< x or y in alpha: x in alpha and y in green (DXT5nm), or another order
     exchanged,    ///< z is in a channel other than blue, or inverted
     encoded,      ///< vectors stored as colors: with the sRGB curve applied or removed
     objectSpace,  ///< directions in the coordinates of the mesh or the scene
@@ -46,6 +46,8 @@ struct MapAnalysis {
     /// For `is_doubtful`: the slopes fit a height field better if the channels are x and y in octahedral encoding,
     /// (x, y, z) / (|x| + |y| + |z|).
     bool may_be_octahedral = false;
+    /// For two channels: the slopes fit a height field with x and y in either order.
+    bool is_order_open = false;
     bool is_declared = false;  ///< the texture file declares the layout
 };
 
@@ -58,9 +60,6 @@ std::vector<TexelBytes> sampleTexels(const RgbImage& image, std::span<const std:
 /// may be empty. `in_world`: the same points with the normals in world space; empty if no node rotates them.
 MapAnalysis analyzeTexels(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
                           std::span<const TexelOnSurface> in_world = {});
-
-/// Returns whether red contains no information, so that alpha must be examined.
-bool mayHaveXInAlpha(std::span<const TexelBytes> texels);
 
 /// Returns whether blue contains no information.
 bool isBlueConstant(std::span<const TexelBytes> texels);

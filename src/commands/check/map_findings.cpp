@@ -8,6 +8,7 @@
 #include "commands/check/map_slopes.h"
 #include "commands/check/remedy.h"
 #include "commands/check/scene_checks.h"
+#include "images/texture_vectors.h"
 
 namespace tspace {
 namespace {
@@ -31,11 +32,6 @@ char letterOf(const MapComponent& component) {
     constexpr const char* kPlain = "rgba";
     constexpr const char* kInverted = "RGBA";
     return (component.is_inverted ? kInverted : kPlain)[static_cast<std::size_t>(component.channel)];
-}
-
-const char* channelName(MapChannel channel) {
-    constexpr const char* kNames[] = {"red", "green", "blue", "alpha", "no channel"};
-    return kNames[static_cast<std::size_t>(channel)];
 }
 
 std::string axisText(const char* axis, const MapComponent& component) {
@@ -177,6 +173,17 @@ Remedy objectSpaceRemedy(const NamedImage& image, const MapAnalysis& analysis, b
     return {"Find out for which model the map was made" + text + " Or bake it again.", {object}};
 }
 
+Remedy openOrderRemedy(const RemedyCommand& convert, const MapAnalysis& analysis, bool green_is_down) {
+    MapLayout one = analysis.layout, other = analysis.layout;
+    std::swap(other.x, other.y);
+    one.y.is_inverted = other.y.is_inverted = green_is_down;
+    return {"If x is in " + std::string(channelName(one.x.channel)) + ": {}. If x is in " +
+                channelName(other.x.channel) +
+                ": {}. The slopes do not show which of the two cases it is; with the wrong one, light seems to come "
+                "from another direction.",
+            {withLayout(convert, one), withLayout(convert, other)}};
+}
+
 Remedy remedyOf(const NamedImage& image, const MapAnalysis& analysis, bool green_is_down) {
     const RemedyCommand convert = convertCommand(image);
     if (analysis.is_x_lost)
@@ -194,6 +201,7 @@ Remedy remedyOf(const NamedImage& image, const MapAnalysis& analysis, bool green
                 {std::move(command)}};
     }
     if (analysis.content == MapContent::objectSpace) return objectSpaceRemedy(image, analysis, green_is_down);
+    if (analysis.is_order_open && !analysis.is_doubtful) return openOrderRemedy(convert, analysis, green_is_down);
     if (analysis.is_doubtful) {
         return {"If these channels hold x and y: {}. Otherwise decode the map with the program that encoded it.",
                 {withLayout(convert, analysis.layout)}};

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "commands/check/map_alpha.h"
 #include "commands/check/normal_map.h"
 #include "images/layout_guess.h"
 
@@ -27,32 +29,39 @@ MapLayout exchanged(MapLayout layout) {
     return layout;
 }
 
-/// Decides which of the two channels other than z is x.
-void chooseXAndY(const DecodedMap& map, MapLayout& layout) {
-    constexpr double kClear = 0.2;
-    const double agreement = std::fabs(slopesOf(map, layout).correlation);
-    if (std::fabs(slopesOf(map, exchanged(layout)).correlation) > agreement + kClear) layout = exchanged(layout);
-}
-
-/// Returns the layout that the texels of an image with alpha suggest. If all colors are equal, green and alpha may also
-/// contain y and x instead of x and y.
-MapLayout guessedLayout(const DecodedMap& map, std::span<const TexelBytes> texels) {
-    LayoutDetector guess;
-    for (const TexelBytes& texel : texels) {
-        const auto part = [&](std::size_t i) { return static_cast<float>(texel[i]) / 255.0F; };
-        guess.add({part(0), part(1), part(2)}, part(3));
-    }
-    MapLayout layout = guess.layout().value_or(MapLayout{});
-    if (layout.y.channel == MapChannel::alpha) chooseXAndY(map, layout);
-    return layout;
-}
-
 bool hasSide(const GreenTest& test) { return test.verdict == GreenVerdict::up || test.verdict == GreenVerdict::down; }
 
 /// Returns whether the slopes of a map fit a height field well.
-bool fitsWell(const GreenTest& other) {
-    constexpr double kMin = 0.8;
-    return hasSide(other) && std::fabs(other.correlation) > kMin;
+bool fitsWell(const GreenTest& other, double min_correlation = 0.8) {
+    return hasSide(other) && std::fabs(other.correlation) > min_correlation;
+}
+
+/// Decides which of the two channels other than z is x. Returns whether the slopes show it; if not, the layout stays.
+bool chooseXAndY(const DecodedMap& map, MapLayout& layout) {
+    constexpr double kClear = 0.2, kMuchNearer = 2, kRounding = 0.02;
+    const auto isClear = [](const GreenTest& one, const GreenTest& other) {
+        const double a = std::fabs(one.correlation), b = std::fabs(other.correlation);
+        return a > b + kClear || (fitsWell(one) && 1 - b > kMuchNearer * (1 - a) + kRounding);
+    };
+    const GreenTest plain = slopesOf(map, layout), other = slopesOf(map, exchanged(layout));
+    if (isClear(plain, other)) return true;
+    if (!isClear(other, plain)) return false;
+    layout = exchanged(layout);
+    return true;
+}
+
+/// Finds x or y in alpha. DXT5nm, with x in alpha and y in green, is assumed where the slopes do not show which is x.
+std::optional<MapAnalysis> analyzeAlpha(const DecodedMap& map, std::span<const TexelBytes> texels) {
+    constexpr double kMinCorrelation = 0.5;  // a mask or heights in alpha correlate by less than 0.1
+    for (const AlphaPair& pair : alphaPairs(texels)) {
+        MapAnalysis analysis{.content = MapContent::xInAlpha, .count = texels.size(), .total = texels.size()};
+        analysis.layout = pair.is_gray ? twoChannelLayout(pair.color, MapChannel::alpha)
+                                       : twoChannelLayout(MapChannel::alpha, pair.color);
+        const bool is_known = chooseXAndY(map, analysis.layout);
+        analysis.is_order_open = !is_known && pair.color != MapChannel::green;
+        if (pair.is_certain || fitsWell(slopesOf(map, analysis.layout), kMinCorrelation)) return analysis;
+    }
+    return {};
 }
 
 /// Returns whether red and green are exchanged. This cannot be detected in relief that has equal curvature along x and
@@ -107,20 +116,51 @@ void testTwoChannels(const DecodedMap& map, MapAnalysis& analysis) {
                                        std::fabs(plain.correlation) < kNoCorrelation);
 }
 
-/// Replaces the result by the layout that a texture file declares, or that its texels suggest.
-void useTextureLayout(const DecodedMap& map, std::span<const TexelBytes> texels, MapAnalysis& analysis) {
-    const bool is_guessed = *map.declared == MapLayout{} && !map.alpha.empty();
-    const MapLayout layout = is_guessed ? guessedLayout(map, texels) : *map.declared;
-    if (layout == MapLayout{}) return;
-    const bool has_z = layout.z.channel != MapChannel::none;
+/// Returns the analysis of a map whose layout is known.
+MapAnalysis knownLayout(const MapLayout& layout, std::span<const TexelBytes> texels) {
     const bool is_plain = layout.x == MapLayout{}.x && layout.y == MapLayout{}.y;
-    analysis = {.content = has_z      ? MapContent::exchanged
-                           : is_plain ? MapContent::twoChannels
-                                      : MapContent::xInAlpha,
-                .layout = layout,
-                .count = texels.size(),
-                .total = texels.size(),
-                .is_declared = !is_guessed};
+    return {.content = layout.z.channel != MapChannel::none ? MapContent::exchanged
+                       : is_plain                           ? MapContent::twoChannels
+                                                            : MapContent::xInAlpha,
+            .layout = layout,
+            .count = texels.size(),
+            .total = texels.size()};
+}
+
+/// Returns the layout that the texels of an image with alpha suggest. In a gray image only the slopes show whether x is
+/// in the colors or in alpha.
+std::optional<MapAnalysis> guessedLayout(const DecodedMap& map, std::span<const TexelBytes> texels) {
+    LayoutDetector guess;
+    for (const TexelBytes& texel : texels) {
+        const auto part = [&](std::size_t i) { return static_cast<float>(texel[i]) / 255.0F; };
+        guess.add({part(0), part(1), part(2)}, part(3));
+    }
+    const std::optional<MapLayout> layout = guess.layout();
+    if (!layout) return {};
+    MapAnalysis analysis = knownLayout(*layout, texels);
+    if (layout->y.channel == MapChannel::alpha)
+        analysis.is_order_open = !chooseXAndY(map, analysis.layout) && map.declared == nullptr;
+    return analysis;
+}
+
+/// Detects the content by the declared layout, alpha, the texels, and the slopes.
+MapAnalysis contentOf(const DecodedMap& map, std::span<const TexelBytes> texels,
+                      std::span<const TexelOnSurface> surface, std::span<const TexelOnSurface> in_world) {
+    if (map.declared != nullptr && !(*map.declared == MapLayout{})) {
+        MapAnalysis analysis = knownLayout(*map.declared, texels);
+        analysis.is_declared = true;
+        return analysis;
+    }
+    if (const std::optional<MapAnalysis> found = analyzeAlpha(map, texels)) return *found;
+    MapAnalysis analysis = analyzeTexels(texels, !map.alpha.empty(), surface, in_world);
+    if (analysis.content == MapContent::exchanged) chooseXAndY(map, analysis.layout);
+    if (analysis.content == MapContent::normals && areXAndYExchanged(map)) {
+        analysis.content = MapContent::exchanged;
+        analysis.layout = exchanged({});
+    }
+    if (map.declared != nullptr ? !map.alpha.empty() : analysis.content == MapContent::xInAlpha)
+        return guessedLayout(map, texels).value_or(analysis);
+    return analysis;
 }
 
 }  // namespace
@@ -128,18 +168,7 @@ void useTextureLayout(const DecodedMap& map, std::span<const TexelBytes> texels,
 MapAnalysis analyzeMap(const DecodedMap& map, std::span<const TexelOnSurface> surface,
                        std::span<const TexelOnSurface> in_world) {
     const std::vector<TexelBytes> texels = sampleTexels(map.image, map.alpha, map.inside);
-    MapAnalysis analysis = analyzeTexels(texels, !map.alpha.empty(), surface, in_world);
-    if (analysis.content == MapContent::exchanged) chooseXAndY(map, analysis.layout);
-    if (analysis.content == MapContent::normals && areXAndYExchanged(map)) {
-        analysis.content = MapContent::exchanged;
-        analysis.layout = exchanged({});
-    }
-    // In gray images with alpha, only slopes show whether x is in the colors or in alpha.
-    if (map.declared == nullptr && analysis.content == MapContent::xInAlpha) {
-        const MapLayout guess = guessedLayout(map, texels);
-        if (!(guess == MapLayout{})) analysis.layout = guess;
-    }
-    if (map.declared != nullptr) useTextureLayout(map, texels, analysis);
+    MapAnalysis analysis = contentOf(map, texels, surface, in_world);
     // In hemi-octahedral encoding, steep relief has larger values than x and y of unit vectors can have, and gentle
     // relief looks flat.
     const bool has_two = analysis.content == MapContent::twoChannels || analysis.content == MapContent::xInAlpha;

@@ -14,14 +14,15 @@ namespace tspace {
 namespace {
 
 /// Returns what the image contained, as a clause.
-const char* formerContent(MapContent content) {
-    switch (content) {
+std::string formerContent(const MapAnalysis& analysis) {
+    switch (analysis.content) {
         case MapContent::twoChannels:
             return "the map stored only x and y";
         case MapContent::unsignedZ:
             return "blue stored z without a sign (0 to 1)";
         case MapContent::xInAlpha:
-            return "the map stored x in alpha and y in green";
+            return std::string("the map stored x in ") + channelName(analysis.layout.x.channel) + " and y in " +
+                   channelName(analysis.layout.y.channel);
         case MapContent::exchanged:
             return "the channels of the map were exchanged or inverted";
         case MapContent::encoded:
@@ -56,6 +57,9 @@ std::string whyUnchanged(const JudgedMap& map, bool claims_srgb) {
     if (analysis.is_doubtful)
         return "its two channels may use another encoding, because they are not the slopes of any height field (see "
                "tspace check)";
+    if (analysis.is_order_open)
+        return std::string("its slopes do not show which of ") + channelName(analysis.layout.x.channel) + " and " +
+               channelName(analysis.layout.y.channel) + " is x (see tspace check)";
     if (isRotated(analysis, map.is_y_inverted))
         return "the image was rotated by 90 or 270 degrees without its vectors, and its slopes do not show which (see "
                "tspace check)";

@@ -127,6 +127,94 @@ TEST(MapSlopes, DetectHemiOctahedralMapsInAlphaAndGreen) {
     EXPECT_EQ(analysis.layout.x.channel, MapChannel::alpha);
 }
 
+/// Stores each texel as four letters say: x, y, z, or h (half), 0 and 1 as filling; the last letter is alpha.
+RgbImage storedAs(const RgbImage& map, const std::string& letters, std::vector<std::uint8_t>& alpha) {
+    RgbImage image = map;
+    alpha.clear();
+    for (std::size_t i = 0; i < map.rgb.size(); i += 3) {
+        const auto part = [&](char letter) -> std::uint8_t {
+            if (letter >= 'x') return map.rgb[i + static_cast<std::size_t>(letter - 'x')];
+            return letter == '1' ? 255 : letter == 'h' ? 128 : 0;
+        };
+        for (std::size_t k = 0; k < 3; ++k) image.rgb[i + k] = part(letters[k]);
+        alpha.push_back(part(letters[3]));
+    }
+    return image;
+}
+
+MapAnalysis analyzeStored(const RgbImage& map, const std::string& letters) {
+    std::vector<std::uint8_t> alpha;
+    const RgbImage image = storedAs(map, letters, alpha);
+    return analyzeImage(image, alpha);
+}
+
+std::string lettersOf(const MapLayout& layout) {
+    return {"rgba-"[static_cast<std::size_t>(layout.x.channel)], "rgba-"[static_cast<std::size_t>(layout.y.channel)]};
+}
+
+TEST(MapSlopes, DetectXOrYInAlphaBesideAnyFilling) {
+    const std::string fillings = "yz10h";
+    for (const double scale : {0.5, 2.0}) {
+        const RgbImage map = normalMapOf(96, [&](double x, double y) { return scale * roundBumps(x, y); });
+        for (std::size_t color = 0; color < 3; ++color) {
+            for (std::size_t i = 0; i < fillings.size() * fillings.size(); ++i) {
+                std::string letters = "yyyx";
+                letters[(color + 1) % 3] = fillings[i % fillings.size()];
+                letters[(color + 2) % 3] = fillings[i / fillings.size()];
+                for (const bool is_x_in_alpha : {true, false}) {
+                    if (!is_x_in_alpha) {
+                        for (char& letter : letters) letter = letter == 'x' ? 'y' : letter == 'y' ? 'x' : letter;
+                    }
+                    const MapAnalysis analysis = analyzeStored(map, letters);
+                    EXPECT_EQ(analysis.content, MapContent::xInAlpha) << letters << ' ' << scale;
+                    EXPECT_EQ(lettersOf(analysis.layout)[is_x_in_alpha ? 0 : 1], 'a') << letters << ' ' << scale;
+                    const char other = lettersOf(analysis.layout)[is_x_in_alpha ? 1 : 0];
+                    const std::size_t read = std::string("rgba").find(other);
+                    EXPECT_EQ(letters[read], is_x_in_alpha ? 'y' : 'x') << letters << ' ' << scale;
+                    EXPECT_FALSE(analysis.is_order_open || analysis.is_doubtful) << letters << ' ' << scale;
+                }
+            }
+        }
+    }
+}
+
+/// Grooves between tiles give no slopes to compare, because x is 0 where y is not.
+TEST(MapSlopes, AreNotNeededForCommonFillings) {
+    const RgbImage map = normalMapOf(
+        128, [](double x, double y) { return 0.02 * (std::pow(std::sin(12 * x), 8) + std::pow(std::sin(12 * y), 8)); });
+    for (const std::string letters : {"1yyx", "0yyx", "1y1x", "0y0x", "zyzx", "zyyx", "1yzx", "hyzx"}) {
+        const MapAnalysis analysis = analyzeStored(map, letters);
+        EXPECT_EQ(analysis.content, MapContent::xInAlpha) << letters;
+        EXPECT_EQ(lettersOf(analysis.layout), "ag") << letters;
+    }
+}
+
+TEST(MapSlopes, NeverFindXOrYInAMaskOrHeightsInAlpha) {
+    const RgbImage relief = normalMapOf(128, roundBumps), other = normalMapOf(128, rings);
+    const auto ridges = [](double along_x, double along_y) {
+        return normalMapOf(128, [=](double x, double y) { return 0.001 * std::sin(60 * (along_x * x + along_y * y)); });
+    };
+    std::vector<std::uint8_t> alpha(other.rgb.size() / 3);
+    for (const bool is_relief : {false, true}) {
+        for (std::size_t i = 0; i < alpha.size(); ++i) {
+            const double u = (static_cast<double>(i % 128) + 0.5) / 128, v = (static_cast<double>(i / 128) + 0.5) / 128;
+            alpha[i] =
+                is_relief ? static_cast<std::uint8_t>(std::lround(128 + 2000 * roundBumps(u, v))) : other.rgb[3 * i];
+        }
+        for (const RgbImage& map : {relief, ridges(1, 0), ridges(0, 1), ridges(1, 1), ridges(1, -1)})
+            EXPECT_EQ(analyzeImage(map, alpha).content, MapContent::normals) << is_relief;
+    }
+}
+
+/// A product of waves curves equally along x and y, so either channel may be x.
+TEST(MapSlopes, LeaveTheOrderOfGrayAndAlphaOpenIfBothFit) {
+    const RgbImage map =
+        normalMapOf(128, [](double x, double y) { return 0.02 * std::sin(30 * x) * std::sin(30 * y); });
+    for (const std::string letters : {"yyyx", "xxxy"})
+        EXPECT_TRUE(analyzeStored(map, letters).is_order_open) << letters;
+    EXPECT_FALSE(analyzeStored(map, "1yyx").is_order_open) << "x is in alpha in DXT5nm";
+}
+
 /// Green contains the slopes of another height field than red. Then a single height field explains the map as badly as
 /// a map with an unknown encoding.
 TEST(MapSlopes, DoubtTwoChannelsThatAreTheSlopesOfNoHeight) {
