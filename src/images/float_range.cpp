@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Prepares floats from an image file: replaces values that are not finite, and detects vectors in the range -1 to 1.
+// Prepares floats from an image file: fills texels that are not finite, and detects vectors in the range -1 to 1.
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "images/codecs.h"
 
@@ -70,6 +73,68 @@ class RangeEvidence {
     double sum_x_ = 0, sum_y_ = 0, sum_z_ = 0;
 };
 
+/// Fills texels that are not finite with the means of their finite neighbors, ring by ring from the border of each hole.
+/// If no texel is finite, all become gray, or flat in a map of vectors.
+class HoleFilling {
+  public:
+    HoleFilling(FloatImage& image, std::vector<bool> is_hole) : image_(image), is_hole_(std::move(is_hole)) {}
+
+    void run(const Vec3& otherwise) {
+        std::vector<bool> is_listed(is_hole_.size());
+        std::vector<std::size_t> ring, next;
+        for (std::size_t i = 0; i < is_hole_.size(); ++i) {
+            if (!is_hole_[i]) continue;
+            image_.texels[i] = otherwise;
+            bool is_border = false;
+            forNeighbors(i, [&](std::size_t near) { is_border = is_border || !is_hole_[near]; });
+            if (is_border) ring.push_back(i);
+            is_listed[i] = is_border;
+        }
+        for (; !ring.empty(); std::swap(ring, next)) {
+            next.clear();
+            std::vector<Vec3> means;
+            means.reserve(ring.size());
+            for (const std::size_t i : ring) means.push_back(meanAround(i));
+            for (std::size_t k = 0; k < ring.size(); ++k) {
+                image_.texels[ring[k]] = means[k];
+                is_hole_[ring[k]] = false;
+            }
+            for (const std::size_t i : ring) {
+                forNeighbors(i, [&](std::size_t near) {
+                    if (!is_hole_[near] || is_listed[near]) return;
+                    is_listed[near] = true;
+                    next.push_back(near);
+                });
+            }
+        }
+    }
+
+  private:
+    template <class Visit>
+    void forNeighbors(std::size_t i, const Visit& visit) const {
+        const std::size_t x = i % image_.width, y = i / image_.width;
+        for (std::size_t row = y == 0 ? 0 : y - 1; row < std::min<std::size_t>(y + 2, image_.height); ++row) {
+            for (std::size_t column = x == 0 ? 0 : x - 1; column < std::min<std::size_t>(x + 2, image_.width); ++column)
+                visit(row * image_.width + column);
+        }
+    }
+    [[nodiscard]] Vec3 meanAround(std::size_t i) const {
+        double count = 0, x = 0, y = 0, z = 0;
+        forNeighbors(i, [&](std::size_t near) {
+            if (is_hole_[near]) return;
+            const Vec3& texel = image_.texels[near];
+            ++count;
+            x += static_cast<double>(texel.x);
+            y += static_cast<double>(texel.y);
+            z += static_cast<double>(texel.z);
+        });
+        return {static_cast<float>(x / count), static_cast<float>(y / count), static_cast<float>(z / count)};
+    }
+
+    FloatImage& image_;
+    std::vector<bool> is_hole_;
+};
+
 }  // namespace
 
 void readFloats(ImageUse use, FloatImage& image) {
@@ -92,13 +157,13 @@ void readFloats(ImageUse use, FloatImage& image) {
     if (!image.range_text.empty()) {
         for (Vec3& texel : image.texels) texel = {0.5F * texel.x + 0.5F, 0.5F * texel.y + 0.5F, 0.5F * texel.z + 0.5F};
     }
-    for (std::size_t i = 0; i < is_broken.size(); ++i) {
-        if (is_broken[i]) image.texels[i] = {0.5F, 0.5F, 0.5F};
-    }
+    if (image.not_finite == 0) return;
+    HoleFilling(image, std::move(is_broken))
+        .run(use == ImageUse::vectors ? Vec3{0.5F, 0.5F, 1} : Vec3{0.5F, 0.5F, 0.5F});
 }
 
 RgbImage roundedImage(const FloatImage& image) {
-    RgbImage rounded{image.width, image.height, {}};
+    RgbImage rounded{image.width, image.height, {}, image.not_finite, image.layer_text};
     rounded.rgb.reserve(3 * image.texels.size());
     for (const Vec3& texel : image.texels) {
         for (const float channel : {texel.x, texel.y, texel.z})

@@ -20,6 +20,8 @@ enum class ImageFormat { unknown, png, jpeg, webp, ktx2, basis, dds, avif, exr, 
 struct RgbImage {
     std::uint32_t width = 0, height = 0;
     std::vector<std::uint8_t> rgb = {};
+    std::uint64_t not_finite = 0;  ///< see FloatImage
+    std::string layer_text = {};   ///< see FloatImage
 };
 
 struct ImageSize {
@@ -55,11 +57,13 @@ struct FloatImage {
     unsigned bits = 8;              ///< bits per channel in the file: 8 or 16; floats: 16 or 32. BC4, BC5 and EAC: 16
     std::vector<Vec3> texels = {};  ///< width * height; in gray images all three channels are equal
     std::vector<float> alpha = {};  ///< one per texel; empty: opaque
-    /// Number of texels of an EXR file or texture that were not finite and were set to gray.
+    /// Number of texels of an EXR file or texture that were not finite and were filled from their neighbors.
     std::uint64_t not_finite = 0;
     TextureFacts texture = {};  ///< the name is empty for other files
     /// One sentence with the reason and its certainty if the values of the file were mapped to 0 to 1; otherwise empty.
     std::string range_text = {};
+    /// Clause on the layer of an EXR that was read, and the layers that were not; empty if there is only one.
+    std::string layer_text = {};
 };
 
 /// Pixels of 3 or 4 channels with 8 bits each; the first row is the top row.

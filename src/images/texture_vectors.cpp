@@ -53,11 +53,28 @@ std::string applyLayout(FloatImage& image) {
            (image.texture.is_guessed ? ", whose texels look as if only x and y were stored: " : ": ") + where;
 }
 
+void addClause(const std::string& clause, std::string& text) {
+    if (!clause.empty()) text += (text.empty() ? "" : "; ") + clause;
+}
+
 }  // namespace
+
+std::string notFiniteText(std::uint64_t count) {
+    if (count == 0) return {};
+    return std::to_string(count) + (count == 1 ? " texel of the image is" : " texels of the image are") +
+           " NaN or infinite; " + (count == 1 ? "it was" : "they were") + " filled from the nearest finite texels";
+}
+
+std::string takeRemarks(FloatImage& image) {
+    std::string text = std::exchange(image.range_text, {});
+    addClause(notFiniteText(std::exchange(image.not_finite, 0)), text);
+    addClause(std::exchange(image.layer_text, {}), text);
+    return text;
+}
 
 std::string readTextureVectors(FloatImage& image) {
     std::string text = applyLayout(image);
-    if (!image.range_text.empty()) text += (text.empty() ? "" : "; ") + std::exchange(image.range_text, {});
+    addClause(takeRemarks(image), text);
     return text;
 }
 

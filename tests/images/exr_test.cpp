@@ -67,17 +67,38 @@ TEST_F(Exr, HalvesRoundTripRounded) {
     EXPECT_EQ(encodeExr(*decoded, 16), encodeExr(image, 16));
 }
 
-TEST_F(Exr, ValuesThatAreNotFiniteBecomeGray) {
-    FloatImage image = waves(8, 8);
-    image.texels[5].y = std::nanf("");
-    image.texels[9].x = std::numeric_limits<float>::infinity();
+TEST_F(Exr, ValuesThatAreNotFiniteAreFilledFromTheirNeighbors) {
+    const float infinity = std::numeric_limits<float>::infinity();
+    const FloatImage ramp = [] {
+        FloatImage image{8, 8, 32, {}, {}};
+        for (int i = 0; i < 64; ++i) {
+            const auto x = static_cast<float>(i % 8), y = static_cast<float>(i / 8);
+            image.texels.push_back({0.1F + 0.1F * x, 0.1F + 0.1F * y, 0.9F});
+        }
+        return image;
+    }();
+    FloatImage image = ramp;
+    for (const std::size_t i : {18, 19, 26, 27, 34}) image.texels[i].y = i % 2 == 0 ? std::nanf("") : infinity;
     for (const unsigned bits : {16U, 32U}) {
         const auto decoded = decodedExr(*encodeExr(image, bits));
         ASSERT_TRUE(decoded);
-        EXPECT_EQ(decoded->not_finite, 2U);
-        EXPECT_EQ(decoded->texels[5], (Vec3{0.5F, 0.5F, 0.5F}));
-        EXPECT_EQ(decoded->texels[9], (Vec3{0.5F, 0.5F, 0.5F}));
+        EXPECT_EQ(decoded->not_finite, 5U);
+        for (std::size_t i = 0; i < ramp.texels.size(); ++i) {
+            EXPECT_NEAR(decoded->texels[i].x, ramp.texels[i].x, 0.1) << i;
+            EXPECT_NEAR(decoded->texels[i].y, ramp.texels[i].y, 0.1) << i;
+            EXPECT_NEAR(decoded->texels[i].z, ramp.texels[i].z, 1e-3) << i;
+        }
     }
+    // Heights of any size stay plausible, and an image without finite texels gets one value.
+    FloatImage heights{5, 5, 32, std::vector<Vec3>(25, Vec3{300, 300, 300}), {}};
+    for (const std::size_t i : {6, 7, 8, 11, 12, 13, 16, 17, 18}) heights.texels[i] = {infinity, infinity, infinity};
+    std::string why;
+    const auto filled = decodeFloatImage(*encodeExr(heights, 32), 1 << 10, why, ImageUse::numbers);
+    ASSERT_TRUE(filled) << why;
+    EXPECT_EQ(filled->not_finite, 9U);
+    for (const Vec3& texel : filled->texels) EXPECT_EQ(texel, (Vec3{300, 300, 300}));
+    for (Vec3& texel : heights.texels) texel.x = std::nanf("");
+    EXPECT_EQ(decodedExr(*encodeExr(heights, 32))->texels[12], (Vec3{0.5F, 0.5F, 1}));
 }
 
 /// Returns the file with one changed number of its data window. `corner`: 0 to 3 for the first x, the first y, the last
@@ -225,6 +246,39 @@ TEST_F(Exr, ChannelsHaveManyNames) {
     ASSERT_TRUE(two);
     EXPECT_EQ(two->texture.layout.z.channel, MapChannel::none);
     EXPECT_NEAR(two->texels[9].x, moved.x[9], 1e-6);
+}
+
+TEST_F(Exr, ALayerOfNormalsPrecedesTheChannelsWithoutALayer) {
+    const RgbImage map = normalMapOf(kSide, bumps);
+    const Vectors v(map), moved(map, true);
+    Vectors beauty(map, true);
+    for (std::size_t i = 0; i < beauty.x.size(); ++i) beauty.x[i] = beauty.y[i] = beauty.z[i] = 0.25F;
+    const auto file = [&](const std::vector<std::string>& layers) {
+        std::vector<ExrChannel> channels{{"R", beauty.x}, {"G", beauty.y}, {"B", beauty.z}};
+        for (const std::string& layer : layers) {
+            channels.push_back({layer + ".X", v.x});
+            channels.push_back({layer + ".Y", v.y});
+            channels.push_back({layer + ".Z", v.z});
+        }
+        return exrFile(kSide, kSide, channels);
+    };
+    for (const std::string name : {"normal", "Normals", "N", "nrm", "ViewLayer.Normal"}) {
+        const auto image = read(file({name}));
+        expectSame(image, moved, name);
+        EXPECT_NE(image->layer_text.find(name + ".X, " + name + ".Y and " + name + ".Z were read"), std::string::npos)
+            << image->layer_text;
+        EXPECT_NE(image->layer_text.find("(R, G and B)"), std::string::npos) << image->layer_text;
+        const auto numbers = read(file({name}), nullptr, ImageUse::numbers);
+        expectSame(numbers, beauty, name);
+        EXPECT_NE(numbers->layer_text.find("R, G and B were read"), std::string::npos) << numbers->layer_text;
+    }
+    for (const std::vector<std::string>& layers : {std::vector<std::string>{"position"}, {"normal", "N"}}) {
+        const auto image = read(file(layers));
+        expectSame(image, beauty, layers[0]);
+        EXPECT_NE(image->layer_text.find("R, G and B were read"), std::string::npos) << image->layer_text;
+    }
+    EXPECT_EQ(read(file({}))->layer_text, "");
+    EXPECT_EQ(read(mapExr(v, "normal.R", "normal.G", "normal.B"))->layer_text, "");
 }
 
 TEST_F(Exr, OneChannelIsHeights) {

@@ -2,6 +2,7 @@
 // EXR files in the commands that read images: floats from -1 to 1 give the same results as a PNG of the same vectors.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/base/vec_math.h"
@@ -88,6 +89,57 @@ TEST_F(ExrFiles, HeightsOfOneChannelAreThoseOfThePng) {
         const FloatImage made = imageIn(folder_, "out.png");
         for (std::size_t i = 0; i < wanted.texels.size(); ++i) ASSERT_NEAR(made.texels[i].x, wanted.texels[i].x, 1e-3);
     }
+}
+
+TEST_F(ExrFiles, ValuesThatAreNotFiniteAreCounted) {
+    const RgbImage map = normalMapOf(kExrSide, bumps);
+    std::vector<float> parts[3];
+    for (std::size_t i = 0; i < map.rgb.size(); ++i) parts[i % 3].push_back(static_cast<float>(map.rgb[i] / 127.5 - 1));
+    parts[0][70] = std::numeric_limits<float>::quiet_NaN();
+    parts[2][900] = std::numeric_limits<float>::infinity();
+    const std::string count = "2 texels of the image are NaN or infinite; they were filled";
+    folder_.write("n.exr", exrFile(kExrSide, kExrSide, {{"R", parts[0]}, {"G", parts[1]}, {"B", parts[2]}}));
+    folder_.write("h.exr", exrFile(kExrSide, kExrSide, {{"Y", parts[0]}}));
+    for (const std::string command : {"convert-map n.exr -o out.png", "convert-map n.exr -o out.png --channels grb",
+                                      "compress-map n.exr -o out.dds", "map-error n.exr --source n.png"}) {
+        const ToolRun run = runTool(folder_, command + " --json");
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_NE(run.out.find(count), std::string::npos) << command << run.out;
+    }
+    const ToolRun heights = runTool(folder_, "height-to-normal h.exr -o out.png --json");
+    EXPECT_NE(heights.out.find("1 texel of the image is NaN or infinite; it was filled"), std::string::npos)
+        << heights.out;
+    const Json report = Json::parse(runTool(folder_, "check n.exr --json").out)["files"][0];
+    ASSERT_EQ(report["findings"].size(), 1U) << report;
+    const Json& finding = report["findings"][0];
+    EXPECT_EQ(finding["code"], "fileRemark");
+    EXPECT_EQ(finding["severity"], "warning");
+    EXPECT_EQ(finding["count"], 2);
+    EXPECT_NE(finding["message"].get<std::string>().find(count), std::string::npos) << finding;
+    ASSERT_EQ(runTool(folder_, "convert-map n.exr -q -o OUT.png").exit_code, 0);
+    EXPECT_EQ(Json::parse(runTool(folder_, "check OUT.png --json").out)["files"][0]["findings"], Json::array());
+}
+
+TEST_F(ExrFiles, LayersThatAreNotReadAreNamed) {
+    const RgbImage map = normalMapOf(kExrSide, bumps);
+    std::vector<float> parts[3];
+    for (std::size_t i = 0; i < map.rgb.size(); ++i) parts[i % 3].push_back(static_cast<float>(map.rgb[i] / 127.5 - 1));
+    const std::vector<float> gray(parts[0].size(), 0.25F);
+    folder_.write("layers.exr", exrFile(kExrSide, kExrSide,
+                                        {{"R", gray},
+                                         {"G", gray},
+                                         {"B", gray},
+                                         {"normal.X", parts[0]},
+                                         {"normal.Y", parts[1]},
+                                         {"normal.Z", parts[2]}}));
+    const std::string text = "the channels normal.X, normal.Y and normal.Z were read, and not those of other layers";
+    const ToolRun run = runTool(folder_, "convert-map layers.exr -o out.png --json");
+    EXPECT_NE(run.out.find(text), std::string::npos) << run.out;
+    const Json report = Json::parse(runTool(folder_, "check layers.exr --json").out)["files"][0];
+    EXPECT_EQ(report["image"]["content"], "normals");
+    ASSERT_EQ(report["findings"].size(), 1U) << report;
+    EXPECT_EQ(report["findings"][0]["code"], "fileRemark");
+    EXPECT_NE(report["findings"][0]["message"].get<std::string>().find(text), std::string::npos) << report;
 }
 
 }  // namespace

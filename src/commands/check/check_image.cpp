@@ -201,7 +201,8 @@ CheckReport checkImageFile(const std::string& input, const CheckOptions& options
     const bool is_declared = facts && !(facts->layout == MapLayout{});
     if (std::optional<Finding> constant = constantFinding(name, map.pixels)) {
         report.image->content = "constant";
-        report.findings = {*std::move(constant)};
+        std::erase_if(report.findings, [](const Finding& one) { return one.code != FindingCode::fileRemark; });
+        report.findings.push_back(*std::move(constant));
         return report;
     }
     for (Finding& finding : report.findings) {

@@ -17,6 +17,7 @@
 #include "core/base/vec_math.h"
 #include "images/float_image.h"
 #include "images/image.h"
+#include "images/texture_vectors.h"
 #include "maps/layout/uv_coverage.h"
 #include "maps/texels/texture_sample.h"
 #include "model/io/file_error.h"
@@ -40,7 +41,9 @@ struct NormalMap {
     MapAnalysis analysis = {};
     std::optional<GreenTest> test = {};
     std::string why_not = {};
-    double packing_deg = 0;  ///< approximate error of the vectors of an image with lossy color compression
+    std::uint64_t not_finite = 0;  ///< texels that were not finite and were filled from their neighbors
+    std::string layer_text = {};   ///< see FloatImage
+    double packing_deg = 0;        ///< approximate error of the vectors of an image with lossy color compression
 };
 
 /// Key of a part: parts with equal keys cover the same texels.
@@ -287,6 +290,8 @@ std::string imageName(const Scene& scene, std::size_t image) {
 
 std::string rectText(const TexelRect& rect) {
     const auto range = [](std::uint32_t begin, std::uint32_t end) {
+    map.not_finite = decoded->not_finite;
+    map.layer_text = decoded->layer_text;
         return std::to_string(begin) + " to " + std::to_string(end - 1);
     };
     return "columns " + range(rect.left, rect.right) + ", rows " + range(rect.top, rect.bottom);
@@ -381,6 +386,27 @@ void describeStorage(const Scene& scene, const NormalMap& map, const std::string
         add(FindingCode::normalMapLossy, Severity::note, std::move(text));
     }
     if (!facts) return;
+/// Reports texels that are not finite, and layers that were not read.
+void describeReading(const Scene& scene, const NormalMap& map, const std::string& name,
+                     std::vector<Finding>& findings) {
+    if (map.not_finite > 0) {
+        const Tally texels{.count = map.not_finite, .total = claimedSize(scene.images[map.image].bytes).pixels()};
+        findings.push_back(makeFinding(FindingCode::fileRemark, Severity::warning, texels, "texels",
+                                       "the normal map " + name + ": " + notFiniteText(map.not_finite)));
+        setRemedy(findings.back(),
+                  {"Find the program that wrote NaN or infinity, and export the map again; or keep the filled texels: "
+                   "{}",
+                   {convertCommand(namedImage(scene, map))}});
+    }
+    if (map.layer_text.empty()) return;
+    const Tally one{.count = 1, .total = 1};
+    findings.push_back(makeFinding(FindingCode::fileRemark, Severity::note, one, "images",
+                                   "the normal map " + name + ": " + map.layer_text));
+    setRemedy(
+        findings.back(),
+        Remedy{"No action is needed if these channels are the normal map. Otherwise export its layer alone.", {}});
+}
+
     const bool is_map = content != MapContent::picture && content != MapContent::height;
     if (facts->is_srgb && is_map && content != MapContent::encoded) {
         Finding& finding = add(FindingCode::normalMapIsSrgb, Severity::warning,
@@ -460,6 +486,7 @@ GreenSide sideOf(const NormalMap& map, const GreenTest& test) {
         case GreenVerdict::unknown:
             break;
     }
+        describeReading(scene, map, name, findings);
     return GreenSide::unknown;
 }
 

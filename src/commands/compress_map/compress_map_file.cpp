@@ -12,6 +12,7 @@
 #include "commands/shared/file_options.h"
 #include "commands/shared/map_image_file.h"
 #include "commands/shared/request.h"
+#include "images/texture_vectors.h"
 #include "maps/texels/shading.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
@@ -93,6 +94,8 @@ class MapCompression {
             RoughnessLevel level{image.width, image.height, std::move(image.texels)};
             if (const std::string why = whyGridsDiffer(level, map.width, map.height); !why.empty())
                 failFile(ErrorCode::invalidOption, why);
+            if (const std::string remarks = takeRemarks(image); !remarks.empty())
+                report_.warnings.push_back("the roughness texture: " + remarks);
             if (!image.alpha.empty())
                 report_.warnings.emplace_back("the alpha channel of the roughness texture is ignored");
             return level;

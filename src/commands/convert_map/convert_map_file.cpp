@@ -249,7 +249,7 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
         failFile(ErrorCode::invalidOption, "--dds-header can only be used with outputs that end in .dds");
     const unsigned bits = is_texture ? 16 : outputBits(format, is_tga ? 8 : options.bits);
     FloatImage image = readMapImage(input, options.content, options.file);
-    const std::string how_read = options.layout == MapLayout{} ? readTextureVectors(image) : std::string();
+    const std::string how_read = options.layout == MapLayout{} ? readTextureVectors(image) : takeRemarks(image);
     const std::vector<Vec3> before = applyLayout(options.layout, image);
     std::vector<std::string> alpha_text;
     std::vector<float> coverage;
@@ -287,9 +287,6 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     if (!before.empty()) countLayout(before, image.texels, any == nullptr, report.texels);
     if (!how_read.empty()) report.warnings.push_back(how_read);
     report.warnings.insert(report.warnings.end(), alpha_text.begin(), alpha_text.end());
-    if (image.not_finite > 0)
-        report.warnings.push_back(std::to_string(image.not_finite) +
-                                  " texels of the image are not finite; they become gray, which is not a valid normal");
     addMapWarnings(options, report);
     if (is_texture) {
         if (options.bits != 0) report.warnings.emplace_back("--bits has no effect on BC5");

@@ -128,7 +128,8 @@ Bytes rewriteMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& opti
         return {};
     }
     map.report.mended = true;
-    map.report.reason = formerContent(map.analysis.content);
+    map.report.reason = formerContent(map.analysis);
+    if (const std::string remarks = takeRemarks(*image); !remarks.empty()) map.report.reason += "; " + remarks;
     return Bytes(file->begin(), file->end());
 }
 

@@ -8,6 +8,7 @@
 #include "commands/shared/file_options.h"
 #include "commands/shared/request.h"
 #include "core/base/numbers.h"
+#include "images/texture_vectors.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
@@ -95,6 +96,7 @@ HeightToNormalFileReport convertHeights(const std::string& input, const std::str
     if (!is_gray) checkTerrain(options.content, image);
     HeightToNormalFileReport report{.width = image.width, .height = image.height, .bits_before = image.bits};
     report.bits = options.bits;
+    if (std::string remarks = takeRemarks(image); !remarks.empty()) report.warnings.push_back(std::move(remarks));
     if (is_gray && !isGrayImage(image))
         report.warnings.emplace_back("the image is not gray; the mean of red, green and blue is used as height");
     MapMesh mesh;

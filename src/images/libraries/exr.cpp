@@ -181,7 +181,8 @@ struct ExrChannels {
     /// Names of the channels that become red, green and blue. The second is empty if there is one channel, the third if
     /// there are only x and y.
     std::array<std::string, 3> colors = {};
-    std::string alpha = {};  ///< name of the alpha channel; empty if the image is opaque
+    std::string alpha = {};   ///< name of the alpha channel; empty if the image is opaque
+    std::string others = {};  ///< channels of other layers that contain vectors, as text; empty if there are none
 
     [[nodiscard]] bool has(std::string_view name) const {
         return !name.empty() && (name == alpha || std::find(colors.begin(), colors.end(), name) != colors.end());
@@ -233,9 +234,23 @@ struct ExrLayer {
     }
 };
 
-/// Chooses the channels to read, in this order: vectors without a layer; vectors of the only layer whose name contains
-/// "normal"; vectors of the only layer that has any; a single channel.
-std::optional<ExrChannels> chooseExrChannels(std::span<const std::string_view> names, std::string& why) {
+/// Returns whether a part of the name of a layer says that it holds normals: a part that contains "normal", or that is
+/// one of the usual abbreviations.
+bool isNamedNormal(const std::string& prefix) {
+    constexpr std::array<std::string_view, 6> kNames{"n", "nor", "norm", "nrm", "nml", "ddn"};
+    const std::string name = lowerAscii(prefix);
+    if (name.find("normal") != std::string::npos) return true;
+    const auto isLetter = [](char c) { return c >= 'a' && c <= 'z'; };
+    for (std::size_t at = 0; at < name.size();) {
+        std::size_t end = at;
+        while (end < name.size() && isLetter(name[end])) ++end;
+        if (std::find(kNames.begin(), kNames.end(), name.substr(at, end - at)) != kNames.end()) return true;
+        at = end + 1;
+    }
+    return false;
+}
+
+std::vector<ExrLayer> exrLayers(std::span<const std::string_view> names) {
     std::vector<ExrLayer> layers;
     for (const std::string_view name : names) {
         const std::size_t dot = name.rfind('.');
@@ -245,16 +260,33 @@ std::optional<ExrChannels> chooseExrChannels(std::span<const std::string_view> n
         if (layer == layers.end()) layer = layers.insert(prefix.empty() ? layers.begin() : layers.end(), {prefix});
         layer->names.push_back(name);
     }
-    std::vector<ExrChannels> found, of_normals;
+    return layers;
+}
+
+/// Chooses the channels to read, in this order: for a normal map, vectors of the only layer named like normals; vectors
+/// without a layer; vectors of the only layer named like normals, or of the only layer that has any; a single channel.
+std::optional<ExrChannels> chooseExrChannels(std::span<const std::string_view> names, ImageUse use, std::string& why) {
+    const std::vector<ExrLayer> layers = exrLayers(names);
+    std::vector<ExrChannels> found;
+    std::vector<std::size_t> of_normals;
+    bool has_root = false;
     for (const ExrLayer& layer : layers) {
         const std::optional<ExrChannels> vectors = layer.vectors();
         if (!vectors) continue;
-        if (layer.prefix.empty()) return vectors;
+        has_root = has_root || layer.prefix.empty();
+        if (isNamedNormal(layer.prefix)) of_normals.push_back(found.size());
         found.push_back(*vectors);
-        if (lowerAscii(layer.prefix).find("normal") != std::string::npos) of_normals.push_back(*vectors);
     }
-    if (of_normals.size() == 1) return of_normals.front();
-    if (found.size() == 1) return found.front();
+    std::optional<std::size_t> chosen;
+    if (has_root || found.size() == 1) chosen = 0;  // channels without a layer are the first
+    if (of_normals.size() == 1 && (use == ImageUse::vectors || !has_root)) chosen = of_normals.front();
+    if (chosen) {
+        ExrChannels channels = found[*chosen];
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (i != *chosen) channels.others.append(channels.others.empty() ? "" : "; ").append(found[i].text());
+        }
+        return channels;
+    }
     if (found.empty() && layers.size() == 1) {
         if (std::optional<ExrChannels> heights = layers.front().heights()) return heights;
     }
@@ -319,7 +351,7 @@ class ExrReader {
         std::vector<std::string_view> names;
         for (const exr_attr_chlist_entry_t& entry : entries)
             names.emplace_back(entry.name.str, static_cast<std::size_t>(std::max(entry.name.length, 0)));
-        const std::optional<ExrChannels> chosen = chooseExrChannels(names, why_);
+        const std::optional<ExrChannels> chosen = chooseExrChannels(names, use_, why_);
         if (!chosen) return false;
         channels_ = *chosen;
         bits_ = 16;
@@ -415,6 +447,9 @@ class ExrReader {
             image_.texture.layout = twoChannelLayout(MapChannel::red, MapChannel::green);
         }
         if (channels_.isUnusual()) image_.texture.name = "an EXR with the channels " + channels_.text();
+        if (!channels_.others.empty())
+            image_.layer_text = "the EXR has several layers: the channels " + channels_.text() +
+                                " were read, and not those of other layers (" + channels_.others + ")";
         readFloats(is_whole_ ? ImageUse::numbers : use_, image_);
     }
 
