@@ -38,6 +38,7 @@ struct MapPart {
 struct NormalMap {
     std::size_t image = 0;
     std::vector<MapPart> parts = {};
+    bool is_of_unknown = false;  ///< only unknown material extensions use the map
     MapAnalysis analysis = {};
     std::optional<GreenTest> test = {};
     std::string why_not = {};
@@ -60,23 +61,44 @@ PartKey keyOf(const ScenePrimitive& primitive, const TangentUse& use) {
             use.wrap_v};
 }
 
+class MapCollection {
+  public:
+    void add(const ScenePrimitive& primitive, std::size_t number, const TangentUse& use) {
+        if (!use.image || use.needed_by == "anisotropy") return;
+        const auto [map_number, is_new_map] = map_of_.try_emplace(*use.image, maps.size());
+        if (is_new_map) maps.push_back({.image = *use.image});
+        std::vector<MapPart>& parts = maps[map_number->second].parts;
+        const auto [part_number, is_new_part] = part_of_.try_emplace(keyOf(primitive, use), parts.size());
+        if (is_new_part) parts.push_back({.primitive = &primitive, .use = &use});
+        if (!primitive.uses.empty() && &use == &primitive.uses.front())
+            parts[part_number->second].followers.push_back(number);
+    }
+
+    std::vector<NormalMap> maps = {};
+
+  private:
+    std::map<std::size_t, std::size_t> map_of_ = {};
+    std::map<PartKey, std::size_t> part_of_ = {};
+};
+
+/// Returns the normal maps of known uses, and then those that only unknown extensions use.
 std::vector<NormalMap> collectNormalMaps(const Scene& scene) {
-    std::map<std::size_t, std::size_t> map_of;
-    std::map<PartKey, std::size_t> part_of;
-    std::vector<NormalMap> maps;
+    MapCollection known, unknown;
+    std::set<std::size_t> images;
     for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
-        const ScenePrimitive& primitive = scene.primitives[i];
-        for (const TangentUse& use : primitive.uses) {
-            if (!use.image || use.needed_by == "anisotropy") continue;
-            const auto [map_number, is_new_map] = map_of.try_emplace(*use.image, maps.size());
-            if (is_new_map) maps.push_back({.image = *use.image});
-            std::vector<MapPart>& parts = maps[map_number->second].parts;
-            const auto [part_number, is_new_part] = part_of.try_emplace(keyOf(primitive, use), parts.size());
-            if (is_new_part) parts.push_back({.primitive = &primitive, .use = &use});
-            if (&use == &primitive.uses.front()) parts[part_number->second].followers.push_back(i);
+        for (const TangentUse& use : scene.primitives[i].uses) known.add(scene.primitives[i], i, use);
+    }
+    for (const NormalMap& map : known.maps) images.insert(map.image);
+    for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
+        for (const TangentUse& use : scene.primitives[i].unknown_maps) {
+            if (use.image && images.count(*use.image) == 0) unknown.add(scene.primitives[i], i, use);
         }
     }
-    return maps;
+    for (NormalMap& map : unknown.maps) {
+        map.is_of_unknown = true;
+        known.maps.push_back(std::move(map));
+    }
+    return std::move(known.maps);
 }
 
 /// Marks the texels that a part covers: none if the primitive has no triangles or no UVs. Returns false if the step
@@ -268,6 +290,8 @@ void examine(const Scene& scene, const CheckOptions& options, NormalMap& map) {
     }
     std::optional<RgbImage> decoded = decodeImage(image.bytes, options.most_pixels, map.why_not);
     if (!decoded) return;
+    map.not_finite = decoded->not_finite;
+    map.layer_text = decoded->layer_text;
     TexelMask inside(decoded->width, decoded->height);
     std::uint64_t steps = kCoverSteps;
     for (const MapPart& part : map.parts) cover(part, inside, steps);
@@ -290,8 +314,6 @@ std::string imageName(const Scene& scene, std::size_t image) {
 
 std::string rectText(const TexelRect& rect) {
     const auto range = [](std::uint32_t begin, std::uint32_t end) {
-    map.not_finite = decoded->not_finite;
-    map.layer_text = decoded->layer_text;
         return std::to_string(begin) + " to " + std::to_string(end - 1);
     };
     return "columns " + range(rect.left, rect.right) + ", rows " + range(rect.top, rect.bottom);
@@ -340,7 +362,8 @@ Finding mixed(const std::string& name, const GreenTest& test) {
 NamedImage namedImage(const Scene& scene, const NormalMap& map) {
     const std::string& uri = scene.images[map.image].uri;
     const bool is_word = uri.find_first_of(" '\"%\\$`&;|<>()*?[]{}~#!") == std::string::npos;
-    return {imageName(scene, map.image), uri.empty() || !is_word ? kUnnamed : uri, map.parts.empty()};
+    return {imageName(scene, map.image), uri.empty() || !is_word ? kUnnamed : uri,
+            map.parts.empty() || map.is_of_unknown};
 }
 
 bool isDown(const NormalMap& map) { return map.test && map.test->verdict == GreenVerdict::down; }
@@ -359,6 +382,27 @@ bool mayBeHeights(const NormalMap& map) {
 
 bool readsLevels(const NormalMap& map) {
     return std::any_of(map.parts.begin(), map.parts.end(), [](const MapPart& part) { return part.use->reads_levels; });
+}
+
+/// Reports texels that are not finite, and layers that were not read.
+void describeReading(const Scene& scene, const NormalMap& map, const std::string& name,
+                     std::vector<Finding>& findings) {
+    if (map.not_finite > 0) {
+        const Tally texels{.count = map.not_finite, .total = claimedSize(scene.images[map.image].bytes).pixels()};
+        findings.push_back(makeFinding(FindingCode::fileRemark, Severity::warning, texels, "texels",
+                                       "the normal map " + name + ": " + notFiniteText(map.not_finite)));
+        setRemedy(findings.back(),
+                  {"Find the program that wrote NaN or infinity, and export the map again; or keep the filled texels: "
+                   "{}",
+                   {convertCommand(namedImage(scene, map))}});
+    }
+    if (map.layer_text.empty()) return;
+    const Tally one{.count = 1, .total = 1};
+    findings.push_back(makeFinding(FindingCode::fileRemark, Severity::note, one, "images",
+                                   "the normal map " + name + ": " + map.layer_text));
+    setRemedy(
+        findings.back(),
+        Remedy{"No action is needed if these channels are the normal map. Otherwise export its layer alone.", {}});
 }
 
 /// Reports how the file stores the map: lossy compression, declared sRGB, and missing mip levels.
@@ -386,27 +430,6 @@ void describeStorage(const Scene& scene, const NormalMap& map, const std::string
         add(FindingCode::normalMapLossy, Severity::note, std::move(text));
     }
     if (!facts) return;
-/// Reports texels that are not finite, and layers that were not read.
-void describeReading(const Scene& scene, const NormalMap& map, const std::string& name,
-                     std::vector<Finding>& findings) {
-    if (map.not_finite > 0) {
-        const Tally texels{.count = map.not_finite, .total = claimedSize(scene.images[map.image].bytes).pixels()};
-        findings.push_back(makeFinding(FindingCode::fileRemark, Severity::warning, texels, "texels",
-                                       "the normal map " + name + ": " + notFiniteText(map.not_finite)));
-        setRemedy(findings.back(),
-                  {"Find the program that wrote NaN or infinity, and export the map again; or keep the filled texels: "
-                   "{}",
-                   {convertCommand(namedImage(scene, map))}});
-    }
-    if (map.layer_text.empty()) return;
-    const Tally one{.count = 1, .total = 1};
-    findings.push_back(makeFinding(FindingCode::fileRemark, Severity::note, one, "images",
-                                   "the normal map " + name + ": " + map.layer_text));
-    setRemedy(
-        findings.back(),
-        Remedy{"No action is needed if these channels are the normal map. Otherwise export its layer alone.", {}});
-}
-
     const bool is_map = content != MapContent::picture && content != MapContent::height;
     if (facts->is_srgb && is_map && content != MapContent::encoded) {
         Finding& finding = add(FindingCode::normalMapIsSrgb, Severity::warning,
@@ -459,9 +482,11 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         if (content) findings.push_back(*std::move(content));
         if (has_own_green && isDown(map) && !isDeclared(map)) {
             findings.push_back(flipped(name, *map.test));
-            if (map.parts.empty()) setRemedy(findings.back(), loneGreenRemedy(namedImage(scene, map)));
+            const NamedImage named = namedImage(scene, map);
+            if (named.is_alone) setRemedy(findings.back(), loneGreenRemedy(named));
         }
         if (map.test->verdict == GreenVerdict::mixed) findings.push_back(mixed(name, *map.test));
+        describeReading(scene, map, name, findings);
         describeStorage(scene, map, name, findings);
         for (Finding& finding : findings) {
             if (finding.unit == "blocks") finding.confidence = map.test->confidence();
@@ -469,7 +494,13 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
     }
     if (map.parts.empty()) return findings;
     const MapPart& part = partOf(map);
-    for (Finding& finding : findings) placeAt(*part.primitive, part.use->place, finding);
+    for (Finding& finding : findings) {
+        placeAt(*part.primitive, part.use->place, finding);
+        if (!map.is_of_unknown) continue;
+        finding.severity = Severity::note;
+        finding.message += " (only " + part.use->needed_by +
+                           " uses the map, which tspace does not know; it was checked like a normalTexture)";
+    }
     return findings;
 }
 
@@ -486,7 +517,6 @@ GreenSide sideOf(const NormalMap& map, const GreenTest& test) {
         case GreenVerdict::unknown:
             break;
     }
-        describeReading(scene, map, name, findings);
     return GreenSide::unknown;
 }
 
@@ -507,10 +537,13 @@ ImageFindings checkImages(const Scene& scene, const CheckOptions& options) {
     for (const NormalMap& map : maps) {
         result.examined_count += map.test.has_value();
         result.green_known_count += map.test && map.test->verdict != GreenVerdict::unknown;
-        result.analyses[map.image] = map.analysis;
-        result.is_y_inverted[map.image] = isDown(map) && !hasOwnGreen(map.analysis.layout);
-        result.is_declared[map.image] = isDeclared(map);
-        result.image_green[map.image] = map.test ? sideOf(map, *map.test) : GreenSide::unread;
+        // No verdict on tangents or on other maps depends on maps of unknown extensions, and generate keeps them.
+        if (!map.is_of_unknown) {
+            result.analyses[map.image] = map.analysis;
+            result.is_y_inverted[map.image] = isDown(map) && !hasOwnGreen(map.analysis.layout);
+            result.is_declared[map.image] = isDeclared(map);
+            result.image_green[map.image] = map.test ? sideOf(map, *map.test) : GreenSide::unread;
+        }
         for (const MapPart& part : map.parts) {
             for (const std::size_t primitive : part.followers) {
                 result.primitive_green[primitive] = map.test ? sideOf(map, part.test) : GreenSide::unread;

@@ -319,6 +319,9 @@ void applyImageVerdicts(const Scene& scene, const CheckOptions& options, ImageFi
         for (const TangentUse& use : scene.primitives[i].uses) {
             if (use.image && !is_inverted) is_needed[*use.image] = true;
         }
+        for (const TangentUse& use : scene.primitives[i].unknown_maps) {
+            if (use.image) is_needed[*use.image] = true;  // its tangents may be others
+        }
         lowerSigns(judgements[i], maps.effectOn(scene.primitives[i], i));
         for (const TangentUse& use : scene.primitives[i].uses) {
             if (use.image && judgements[i].signs != SignVerdict::plain) is_cancelled[*use.image] = true;

@@ -168,6 +168,23 @@ bool namesNormalMap(const Json& object) {
     return false;
 }
 
+/// Calls visit(key, texture, place) for each texture reference in an object, at any depth, whose name contains "normal".
+template <class Visit>
+void forNormalTextures(const Json& object, const std::string& place, const Visit& visit) {
+    if (object.is_array()) {
+        for (std::size_t i = 0; i < object.size(); ++i) forNormalTextures(object[i], join(place, i), visit);
+        return;
+    }
+    if (!object.is_object()) return;
+    for (const auto& [key, value] : object.items()) {
+        const std::string own_place = join(place, key);
+        if (lowerAscii(key).find("normal") != std::string::npos && findMember(value, "index") != nullptr)
+            visit(key, value, own_place);
+        else
+            forNormalTextures(value, own_place, visit);
+    }
+}
+
 std::vector<std::string> extensionsOf(const Json& object) {
     std::vector<std::string> names;
     const Json* extensions = findMember(object, "extensions");
@@ -222,6 +239,20 @@ class MaterialUses {
           uses_(uses),
           first_(uses.size()) {}
 
+    /// Collects the textures of unknown extensions that are named like normal maps.
+    void collectUnknown() {
+        const Json& material = rootArray(document_, "materials")[material_];
+        for (const std::string& name : extensionsOf(material)) {
+            if (isKnownExtension(name)) continue;
+            const std::string place = join(join(join("/materials", material_), "extensions"), name);
+            forNormalTextures(*findExtension(material, name.c_str()), place,
+                              [&](const std::string& key, const Json& texture, const std::string& own_place) {
+                                  const std::string needed_by = key + " of the material extension " + name;
+                                  if (tryFile([&] { addReference(texture, own_place, needed_by); })) uses_.pop_back();
+                              });
+        }
+    }
+
     void collect() {
         const Json& material = rootArray(document_, "materials")[material_];
         const std::string place = join("/materials", material_);
@@ -248,9 +279,9 @@ class MaterialUses {
     }
 
   private:
-    TangentUse& add(const char* needed_by, std::string place) {
+    TangentUse& add(std::string needed_by, std::string place) {
         TangentUse& use = uses_.emplace_back();
-        use.needed_by = needed_by;
+        use.needed_by = std::move(needed_by);
         use.place = std::move(place);
         use.material = material_;
         use.material_name = materialName(document_, material_);
@@ -262,8 +293,13 @@ class MaterialUses {
     bool addTexture(const Json& object, const std::string& place, const char* key, const char* needed_by) {
         const Json* texture = readObject(object, key, place);
         if (texture == nullptr) return false;
-        TangentUse& use = add(needed_by, join(place, key));
-        const TextureReading reading = readTexture(document_, *texture, use.place);
+        addReference(*texture, join(place, key), needed_by);
+        return true;
+    }
+
+    void addReference(const Json& texture, std::string place, std::string needed_by) {
+        TangentUse& use = add(std::move(needed_by), std::move(place));
+        const TextureReading reading = readTexture(document_, texture, use.place);
         use.uv_set = reading.uv_set;
         use.transform = reading.transform;
         use.image = reading.image;
@@ -271,12 +307,11 @@ class MaterialUses {
         use.wrap_v = reading.wrap_v;
         use.reads_levels = reading.reads_levels;
         // A scale that is not a number is ignored, as in viewers: tangents do not depend on it.
-        if (const Json* scale = findMember(*texture, "scale"); scale != nullptr && scale->is_number())
+        if (const Json* scale = findMember(texture, "scale"); scale != nullptr && scale->is_number())
             use.scale = scale->get<double>();
         use.is_declared_down = declaresGreenDown(rootArray(document_, "materials")[material_]);
         if (const Json* asset = findMember(document_.json, "asset"); asset != nullptr && !use.is_declared_down)
             use.is_declared_down = declaresGreenDown(*asset);
-        return true;
     }
 
     void addAnisotropy(const Json& anisotropy, const std::string& place) {
@@ -330,6 +365,15 @@ std::vector<TangentUse> tangentUses(const Document& document, const Primitive& p
     for (auto use = uses.begin(); use != texture; ++use) {
         use->uv_set = texture->uv_set;
         use->transform = texture->transform;
+    }
+    return uses;
+}
+
+std::vector<TangentUse> unknownNormalMaps(const Document& document, const Primitive& primitive) {
+    std::vector<TangentUse> uses;
+    if (primitive.material) MaterialUses(document, *primitive.material, false, uses).collectUnknown();
+    for (const std::size_t material : variantMaterials(document, primitive)) {
+        if (material != primitive.material) MaterialUses(document, material, true, uses).collectUnknown();
     }
     return uses;
 }

@@ -25,6 +25,10 @@ namespace tspace::gltf {
 /// the texture refers to one. Fails with invalidFile.
 std::vector<TangentUse> tangentUses(const Document& document, const Primitive& primitive);
 
+/// Returns the textures of unknown material extensions whose name contains "normal", as uses whose `needed_by` names
+/// the member and the extension. Malformed references are skipped.
+std::vector<TangentUse> unknownNormalMaps(const Document& document, const Primitive& primitive);
+
 /// Names something else that may read the primitive's tangents or suggests that an artist made them, such as "the
 /// material extension EXT_hair": an unknown material extension, or an attribute, extension or entry of `extras` whose
 /// name contains tangent, flow, hair etc. Returns an empty text if there is nothing.

@@ -418,6 +418,7 @@ class PrimitiveLoader {
         result.material_name = materialName(document_, primitive);
         result.mode = modeName(primitive.mode);
         result.uses = tangentUses(document_, primitive);
+        result.unknown_maps = unknownNormalMaps(document_, primitive);
         result.other_reader = otherTangentReader(document_, primitive);
         const SurfaceKind kind = surfaceKind(document_, primitive);
         result.is_unlit = kind.is_unlit;
@@ -529,12 +530,16 @@ Bytes tryReadImage(const Document& document, std::size_t image) {
     return bytes;
 }
 
-void readImages(const Document& document, Scene& scene) {
+void readImages(const Document& document, Scene& scene, bool with_unknown_maps) {
     std::set<std::size_t> wanted;
-    for (const ScenePrimitive& primitive : scene.primitives) {
-        for (const TangentUse& use : primitive.uses) {
+    const auto add = [&](const std::vector<TangentUse>& uses) {
+        for (const TangentUse& use : uses) {
             if (use.image) wanted.insert(*use.image);
         }
+    };
+    for (const ScenePrimitive& primitive : scene.primitives) {
+        add(primitive.uses);
+        if (with_unknown_maps) add(primitive.unknown_maps);
     }
     readImages(document, wanted, scene);
 }

@@ -46,8 +46,8 @@ std::set<std::size_t> materialImagesOf(std::span<const SurfaceLook> looks);
 Scene sceneOf(const Document& document, DecodedArrays& arrays, std::span<const Primitive> primitives);
 
 /// Reads the bytes of the images that the scene's primitives use for tangents. An image that cannot be read stays
-/// empty.
-void readImages(const Document& document, Scene& scene);
+/// empty. `with_unknown_maps`: also reads the images of ScenePrimitive::unknown_maps.
+void readImages(const Document& document, Scene& scene, bool with_unknown_maps = false);
 /// Reads the bytes of these images.
 void readImages(const Document& document, const std::set<std::size_t>& wanted, Scene& scene);
 

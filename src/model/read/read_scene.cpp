@@ -72,7 +72,7 @@ Scene ModelFile::scene(bool with_images) {
     gltf::Model& model = gltf();
     Scene scene = model.sceneOf();
     if (with_images) {
-        gltf::readImages(model.document(), scene);
+        gltf::readImages(model.document(), scene, true);
         gltf::setPlaces(model.document(), model.primitives(), scene);
     }
     return scene;

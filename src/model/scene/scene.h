@@ -178,6 +178,8 @@ struct ScenePrimitive {
     /// All uses of tangents in the primitive's materials, including variants. The first use determines the UV set of
     /// the tangents.
     std::vector<TangentUse> uses = {};
+    /// Textures of unknown material extensions that are named like normal maps. Tangents are not computed for them.
+    std::vector<TangentUse> unknown_maps = {};
     /// Transforms of the primitive by the nodes of the scene; empty if not requested.
     std::vector<Affine> places = {};
     /// Description of another possible reader of the tangents, or of a sign that they are authored, such as "the

@@ -168,5 +168,29 @@ TEST(CheckFile, ReadsWebp) {
     EXPECT_EQ(codes(model.check()), (CodeCounts{"warning greenFlipped", "note normalMapLossy"}));
 }
 
+TEST(CheckFile, ExaminesNormalMapsOfUnknownExtensions) {
+    TestModel model;
+    model.folder.write("normal.png", pngFile(normalMapOf(256, bumps, true)));
+    Json& material = model.builder.json()["materials"][0];
+    const Json texture = material["normalTexture"];
+    material.erase("normalTexture");
+    for (const char* member : {"detailNormalTexture", "normalTexture"}) {
+        material["extensions"] = {{"EXT_layers", {{"layers", Json::array({{{member, texture}}})}}}};
+        const CheckReport report = model.check();
+        EXPECT_EQ(report.image_count, 1U);
+        const auto found = std::find_if(report.findings.begin(), report.findings.end(), [](const Finding& finding) {
+            return finding.code == FindingCode::greenFlipped;
+        });
+        ASSERT_NE(found, report.findings.end()) << member;
+        EXPECT_EQ(found->severity, Severity::note) << "the extension may define another encoding";
+        EXPECT_NE(found->message.find(std::string("only ") + member + " of the material extension EXT_layers"),
+                  std::string::npos)
+            << found->message;
+        EXPECT_EQ(found->remedy.find("generate"), std::string::npos) << found->remedy;
+    }
+    material["extensions"]["EXT_layers"]["layers"][0] = {{"normalTexture", {{"index", 0}, {"texCoord", "x"}}}};
+    EXPECT_EQ(model.check().image_count, 0U);
+}
+
 }  // namespace
 }  // namespace tspace::test
