@@ -85,6 +85,16 @@ std::vector<Word> wordsOf(std::string_view line) {
     }
 }
 
+/// Returns whether a line of an MTL file begins a new statement, or is empty or a comment.
+bool isStatement(std::string_view line) {
+    constexpr std::array<std::string_view, 21> kKeywords{"refl",      "aniso", "newmtl", "Ka", "Kd", "Ks",   "Ke",
+                                                         "Km",        "Tf",    "Tr",     "d",  "Ns", "Ni",   "illum",
+                                                         "sharpness", "bump",  "norm",   "Pr", "Pm", "disp", "decal"};
+    const std::vector<Word> words = wordsOf(line);
+    if (words.empty() || words[0].text.starts_with("#") || words[0].text.starts_with("map_")) return true;
+    return std::find(kKeywords.begin(), kKeywords.end(), words[0].text) != kKeywords.end();
+}
+
 bool namesTexture(std::string_view keyword) {
     return keyword.starts_with("map_") || keyword == "bump" || keyword == "norm" || keyword == "disp" ||
            keyword == "decal" || keyword == "refl";
@@ -111,6 +121,15 @@ bool appendLine(std::string_view line, std::string& out) {
         }
     }
     return moves;
+}
+
+/// Joins lines that end with a backslash with the next line, as Blender does; the parser does not. A backslash before a
+/// new statement is the end of a path.
+void joinContinuedLines(std::string& text) {
+    for (std::size_t at = text.find("\\\n"); at != std::string::npos; at = text.find("\\\n", at + 1)) {
+        const std::size_t next = at + 2, end = std::min(text.find('\n', next), text.size());
+        if (!isStatement(std::string_view(text).substr(next, end - next))) text[at] = text[at + 1] = ' ';
+    }
 }
 
 }  // namespace
@@ -195,10 +214,32 @@ class FileFinder {
     FileFinder(const NamedFiles& files, Path folder, std::vector<std::string>& warnings)
         : files_(files), folder_(std::move(folder)), warnings_(warnings) {}
 
-    /// Returns a path in the folder, resolved like a URI, if that file exists. Of an absolute path, the file name alone
-    /// is tried too, because such paths nearly always come from another computer. If no file exists, returns the path
+    /// Returns a path in the folder, resolved like a URI, if that file exists. If the text has a comment (" # ..."), which
+    /// other readers take as a part of the name, the name without it is tried too. If no file exists, returns the path
     /// without quotes and with slashes as separators.
     std::string find(const std::string& text) {
+        if (const std::optional<std::string> path = existing(text)) return *path;
+        constexpr int kMostTries = 8;
+        int tries = 0;
+        for (std::size_t at = text.rfind('#'); at != std::string::npos && at > 0 && tries < kMostTries;
+             at = text.rfind('#', at - 1), ++tries) {
+            if (text[at - 1] != ' ' && text[at - 1] != '\t') continue;
+            const std::optional<std::string> path = existing(text.substr(0, at));
+            if (!path) continue;
+            if (warned_paths_.insert(text).second)
+                warnings_.push_back("the file " + inQuotes(*path, 200) + " is read for the path " +
+                                    inQuotes(unquoted(text), 200) +
+                                    ", which does not exist: '#' begins a comment only at the start of a line, and "
+                                    "other programs may not find the file");
+            return *path;
+        }
+        return withSlashes(unquoted(text));
+    }
+
+  private:
+    /// Returns the path of a file that exists. Of an absolute path, the file name alone is tried too, because such paths
+    /// nearly always come from another computer.
+    std::optional<std::string> existing(const std::string& text) {
         std::string slashed = unquoted(text);
         const std::string plain = withSlashes(slashed);
         if (isThere(plain)) return plain;
@@ -207,16 +248,14 @@ class FileFinder {
         std::replace(slashed.begin(), slashed.end(), '\\', '/');
         if (slashed != plain && isThere(slashed)) return slashed;
         const fs::path path = Path(plain);
-        if (!path.has_root_path() && !startsAtDrive(path)) return plain;
+        if (!path.has_root_path() && !startsAtDrive(path)) return {};
         std::string name = Path(path.filename()).string();
-        if (name.empty() || !isThere(name)) return plain;
+        if (name.empty() || !isThere(name)) return {};
         if (warned_paths_.insert(plain).second)
             warnings_.push_back("the path " + inQuotes(plain, 200) + " is absolute; the file " + inQuotes(name, 200) +
                                 " in the folder of the file that references it is read instead");
         return name;
     }
-
-  private:
     [[nodiscard]] bool isThere(const std::string& path) const {
         bool is_there = false;
         if (path.empty() || files_.areNone()) return false;
@@ -274,6 +313,7 @@ bool readLibrary(const std::string& name, Model& model, std::vector<Material>& m
     if (!isUtf8(text))
         model.warnings.push_back("material library " + inQuotes(Path(fs::path(path).filename()).string(), 200) + ": " +
                                  kNotUtf8);
+    joinContinuedLines(text);
     if (completeTextureOptions(text) != 0) {
         model.warnings.push_back("the material library '" + Path(fs::path(path).filename()).string() +
                                  "' uses texture offsets, scales or turbulence (-o, -s, -t), which are ignored");
@@ -321,6 +361,7 @@ std::vector<Material> readMaterials(const std::vector<std::string>& names, Model
             continue;
         }
         for (const std::string& word : words) {
+            if (word.front() == '#' && !isOneFile(word, model.files)) break;  // a comment
             if (!read(word)) model.warnings.push_back("cannot find the material library '" + word + "'");
         }
     }

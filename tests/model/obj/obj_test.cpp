@@ -427,6 +427,35 @@ TEST(Obj, AbsolutePathsAreSearchedByFileName) {
     }
 }
 
+TEST(Obj, PathsMayHaveCommentsAndContinuedLines) {
+    const TempFolder folder;
+    const std::string faces = std::string(kQuad) + "usemtl a\nf 1/1 2/2 3/3\n";
+    folder.write("in/n.png", flatPng());
+    folder.write("in/my n.png", flatPng());
+    folder.write("in/n.png # 2.png", flatPng());
+    const struct {
+        const char *line, *file;
+        bool is_warned;
+    } cases[] = {{"norm n.png # the normal map", "n", true},
+                 {"norm \"my n.png\"\t# the normal map #2", "my n", true},
+                 {"norm -bm 2 C:\\maps\\n.png # exported", "n", true},
+                 {"norm n.png # 2.png", "n.png # 2", false},
+                 {"norm -bm 2 \\\n n.png", "n", false},
+                 {"norm\\\nmy n.png", "my n", false}};
+    for (const auto& one : cases) {
+        folder.write("in/m.mtl", "newmtl a\n" + std::string(one.line) + "\nKd 1 0 0\n");
+        const ObjModel made = make(folder, "mtllib m.mtl # materials\n" + faces, {});
+        ASSERT_TRUE(made.document.json.contains("images")) << one.line;
+        EXPECT_EQ(made.document.json["images"][0]["name"], one.file) << made.document.json["images"];
+        EXPECT_EQ(mentions(made.report.warnings, "'#' begins a comment only at the start of a line"), one.is_warned)
+            << one.line;
+        EXPECT_FALSE(mentions(made.report.warnings, "cannot find the material library")) << one.line;
+    }
+    // A backslash at the end of a path does not continue the line if the next line is a statement.
+    folder.write("in/m.mtl", "newmtl a\nmap_Kd maps\\\nnorm n.png\n");
+    EXPECT_EQ(make(folder, "mtllib m.mtl\n" + faces, {}).report.primitives[0].action, PrimitiveAction::generated);
+}
+
 TEST(Obj, MaterialLibrariesOutsideTheFolderAreNotRead) {
     const TempFolder folder;
     folder.write("m.mtl", "newmtl a\nnorm n.png\n");
