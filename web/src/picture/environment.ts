@@ -27,7 +27,7 @@ const kinds: Record<Surroundings, { below: Color; level?: Color; above: Color; l
     lamps: [{ at: [-7, 1, 1], size: [0.2, 9, 2], light: 14 }, { at: [7, 1, -1], size: [0.2, 9, 2], light: 9 }, { at: [0, 8, 1], size: [4, 0.2, 2], light: 8 }],
   },
   sky: {
-    below: new Color(0.2, 0.18, 0.15), level: new Color(0.85, 0.92, 1), above: new Color(0.22, 0.42, 0.85),
+    below: new Color(0.2, 0.18, 0.15), level: new Color(0.75, 0.95, 1.25), above: new Color(0.16, 0.42, 1.15),
     lamps: [{ at: [-6, 9, 6], size: [1.6, 1.6, 1.6], light: 55, color: [1, 0.95, 0.86] }],
   },
   sunset: {
