@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Conversion of the fields of C structs to and from their C++ counterparts. Fields that are not single numbers are
-// converted where the struct is converted.
+// Conversion of the numeric fields of C structs to and from their C++ counterparts. Other fields (spans, pointers) are
+// converted by the function that converts the struct.
 #pragma once
 
 #include "core/c_api/c_convert.h"
