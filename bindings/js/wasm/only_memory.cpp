@@ -21,6 +21,7 @@ Bytes readFile(const Path& path, const std::string& place, const Execution&) {
 }
 bool isThere(const Path&) { return false; }
 bool isFolder(const Path&) { return false; }
+PathKind kindOf(const Path&) { return PathKind::nothing; }
 bool isSameFile(const Path&, const Path&) { return false; }
 Path resolveUri(const Path&, std::string_view uri, bool, const std::string& place) {
     refuseUri(uri, "cannot be resolved without a disk", place);

@@ -7,6 +7,7 @@
 
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
+#include "model/io/system_files.h"
 #include "model/io/uri.h"
 
 namespace tspace {
@@ -44,15 +45,32 @@ Result<std::span<const std::uint8_t>> NamedFiles::find(const Path& file) const {
 
 NamedFiles::Kind NamedFiles::kindOf(const Path& file) const {
     if (is_in_memory_) return find(file) ? Kind::file : Kind::missing;
-    if (isFolder(file)) return Kind::folder;
-    return isThere(file) ? Kind::file : Kind::missing;
+    switch (tspace::kindOf(file)) {
+        case PathKind::nothing:
+            return Kind::missing;
+        case PathKind::file:
+            return Kind::file;
+        case PathKind::folder:
+            return Kind::folder;
+        default:
+            return Kind::other;
+    }
 }
 
 std::string NamedFiles::whyNotRead(std::string_view uri, const std::string& place) const {
     Kind kind = Kind::file;
     const std::optional<Error> failure = tryFile([&] { kind = kindOf(resolve(uri, place)); });
     if (failure) return failure->message;
-    return kind == Kind::file ? "" : kind == Kind::folder ? "it is a folder" : "it does not exist";
+    switch (kind) {
+        case Kind::file:
+            return "";
+        case Kind::folder:
+            return "it is a folder";
+        case Kind::other:
+            return "it is not a regular file";  // reading a pipe or device could block or never end
+        default:
+            return "it does not exist";
+    }
 }
 
 void NamedFiles::note(const Path& file) const {

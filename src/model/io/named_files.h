@@ -16,7 +16,7 @@ namespace tspace {
 
 class NamedFiles {
   public:
-    enum class Kind { file, folder, missing };
+    enum class Kind { file, folder, other, missing };  ///< other: a pipe or device
 
     NamedFiles() = default;
     /// `model`: the path of the model or, with FileOptions::content, its name.
