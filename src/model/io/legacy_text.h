@@ -10,8 +10,8 @@
 namespace tspace {
 
 inline constexpr const char* kNotUtf8 =
-    "the text is not UTF-8: its bytes are kept, but names may be displayed incorrectly, and files with such names may "
-    "not be found";
+    "the text is not UTF-8: files are looked up by the bytes of their names and may not be found, and the names in a "
+    "glTF output have U+FFFD for bytes that are not UTF-8; to keep the names, convert the text to UTF-8";
 
 /// Returns whether the text is valid UTF-8 (which includes ASCII). Linear.
 inline bool isUtf8(std::string_view text) {
