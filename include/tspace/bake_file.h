@@ -262,6 +262,8 @@ struct FinishedModel {
     std::uint64_t without_uvs_count = 0;  ///< primitives with triangles and without UVs
     /// Triangles that were not flipped, because their mesh keeps its winding (FinishOptions::mend_winding).
     std::uint64_t left_winding_count = 0;
+    std::uint64_t normals_scaled_count = 0;  ///< primitives whose normals were scaled to length 1
+    bool attributes_repaired = false;        ///< attributes that could not be read were repaired or removed
 };
 
 struct FinishReport {

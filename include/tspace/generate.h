@@ -93,13 +93,13 @@ struct GenerateOptions {
         /// normals are also computed for each primitive separately, and the border is a seam. OBJ: normals are smooth
         /// over the whole file, or, with true, over the faces of one object and material.
         bool per_primitive = false;
-        /// Recompute existing normals with `compute` in every primitive with triangles whose material is not unlit,
-        /// and add missing ones, whether or not tangents are needed. Vertices that differ only in computed data
-        /// (normals, tangents, their morph deltas) are first merged, and are split if the new normals differ.
-        /// Existing tangents are recomputed too, even with ExistingTangents::keep, because they would not match; if
-        /// that is impossible (no UVs), the normals are kept. With `keep`, signs stay inverted if most were: normal
-        /// maps may depend on it. Cannot be combined with Maps::convert
-        /// (invalidOption).
+        /// Recompute existing normals with `compute` in every primitive with triangles whose material is not unlit
+        /// (unlit: only normals with an invalid type or without direction), and add missing ones, whether or not
+        /// tangents are needed. Vertices that differ only in computed data (normals, tangents, their morph deltas) are
+        /// first merged, and are split if the new normals differ. Existing tangents are recomputed too, even with
+        /// ExistingTangents::keep, because they would not match; if that is impossible (no readable UVs), the normals
+        /// are kept. With `keep`, signs stay inverted if most were: normal maps may depend on it. Cannot be combined
+        /// with Maps::convert (invalidOption).
         bool overwrite = false;
         /// Treatment of normal deltas of morph targets for normals that are kept; computed normals always get
         /// computed deltas. The base normal is rotated as the surface around the vertex rotates. Tangent deltas of

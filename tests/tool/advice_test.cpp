@@ -14,6 +14,7 @@
 #include "model/model_files.h"
 #include "tool/faulty_models.h"
 #include "tool/model_images.h"
+#include "tool/normal_models.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {
@@ -92,6 +93,12 @@ class Advice : public testing::TestWithParam<std::string> {
         input_ = std::filesystem::absolute(shared(GetParam())).string();
         for (const FaultyModel& model : faultyModels()) {
             if (GetParam() == kMade + std::string(model.name)) input_ = writeFaulty(folder_, model);
+        }
+        for (const SheetFault& fault : sheetFaults()) {
+            if (GetParam() != kMade + std::string(fault.name)) continue;
+            Sheet sheet = bentSheetWithTangents();
+            fault.apply(sheet);
+            input_ = writeSheet(folder_, "sheet.gltf", sheet);
         }
         const std::string extension = lowerExtension(input_);
         is_gltf_ = extension == ".glb" || extension == ".gltf" || extension == ".vrm";
@@ -216,6 +223,7 @@ std::vector<std::string> models() {
         if (std::filesystem::exists(shared(name))) names.push_back(name);
     }
     for (const FaultyModel& model : faultyModels()) names.push_back(kMade + std::string(model.name));
+    for (const SheetFault& fault : sheetFaults()) names.push_back(kMade + std::string(fault.name));
     return names;
 }
 #endif

@@ -432,6 +432,15 @@ FloatImage readFloatImage(const std::string& path, const FileOptions& options, I
     return readMapImage(path, {}, options, use);
 }
 
+namespace {
+
+void addNormalsWarnings(const char* which, const Scene& scene, std::vector<std::string>& warnings) {
+    for (const std::string& warning : scene.normalsWarnings())
+        warnings.push_back(std::string("the ") + which + " poly: " + warning);
+}
+
+}  // namespace
+
 BakeModels readBakeModels(const std::string& low, const std::string& high, const BakeFileOptions& options,
                           const BakeSources& sources) {
     BakeModels models;
@@ -467,8 +476,12 @@ BakeModels readBakeModels(const std::string& low, const std::string& high, const
                           [&] { return lowModel(low_scene, options.cage.empty() ? nullptr : &cage_scene, used); });
     models.low.frames_made = frames_made;
     models.low.warnings.insert(models.low.warnings.begin(), warnings.begin(), warnings.end());
+    // The report of a written low poly contains these warnings already.
+    if (!models.low_model) addNormalsWarnings("low", low_scene.scene, models.low.warnings);
     models.low.origin = origin;
     reportProgress();
+    std::vector<std::string> of_normals;
+    addNormalsWarnings("high", high_scene.scene, of_normals);
     const std::string high_name = sources.high != nullptr && !isGlbName(high) ? high + ".glb" : high;
     models.high = tagInput(BakeInput::high, [&] { return highModel(high_scene, used, high_name, options); });
     if (showsMaterials(options.layers) || shows(options.layers, MapLayer::id))
@@ -478,6 +491,7 @@ BakeModels readBakeModels(const std::string& low, const std::string& high, const
             tagInput(BakeInput::skew, [&] { return readFloatImage(options.skew, options.file, ImageUse::numbers); });
     reportProgress();
     models.high.warnings.insert(models.high.warnings.end(), match.warnings.begin(), match.warnings.end());
+    models.high.warnings.insert(models.high.warnings.end(), of_normals.begin(), of_normals.end());
     const std::string why = misplacement(models.lowBox(), PositionBox(models.high.view().positions));
     if (!why.empty()) models.high.warnings.push_back(why);
     return models;

@@ -115,7 +115,9 @@ CheckedModel checkScene(const Scene& scene, const CheckOptions& options) {
     for (Finding& finding : checkMapScales(scene)) report.findings.push_back(std::move(finding));
     for (std::size_t i = 0; i < scene.warnings.size(); ++i) {
         // The lengths of normals are already reported by a finding on each primitive.
-        if (i != scene.scaled_normals_warning) report.findings.push_back(fileRemark(scene.warnings[i]));
+        const std::vector<std::size_t>& known = scene.normals_warnings;
+        if (std::find(known.begin(), known.end(), i) == known.end())
+            report.findings.push_back(fileRemark(scene.warnings[i]));
     }
     finishFindings(report);
     return checked;

@@ -11,6 +11,7 @@
 #include "commands/check/frame_health.h"
 #include "commands/check/remedy.h"
 #include "commands/shared/reportable_noise.h"
+#include "core/base/numbers.h"
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/surface.h"
@@ -40,6 +41,22 @@ constexpr double kFarDeg = 40;
 /// Share of the surface from which normals far from their triangles are reported.
 constexpr double kSomeFar = 0.5;
 
+/// Returns whether `generate --overwrite-normals` computes normals for the primitive.
+bool canRecomputeNormals(const ScenePrimitive& primitive) {
+    const auto isFatal = [](const SceneAttributeFault& fault) { return fault.repair == AttributeRepair::none; };
+    const std::vector<SceneAttributeFault>& faults = primitive.attribute_faults;
+    if (primitive.packedAlone() != nullptr || std::any_of(faults.begin(), faults.end(), isFatal)) return false;
+    const std::size_t uv_set = primitive.uses.empty() ? 0 : primitive.uses.front().uv_set;
+    return primitive.tangents.empty() || !plainReading(primitive, uv_set).uvs.empty();
+}
+
+/// Returns the remedy for normals that have no direction.
+Remedy invalidNormalsRemedy(const ScenePrimitive& primitive) {
+    if (!canRecomputeNormals(primitive))
+        return {"Export the normals again; tspace cannot compute new ones that fit the other data of the primitive."};
+    return usualRemedy(FindingCode::normalsNotFinite);
+}
+
 void checkNormalValues(PrimitiveFacts& facts) {
     const TangentView& mesh = facts.mesh;
     const NormalScales* const scales = facts.primitive.normal_scales.get();
@@ -68,6 +85,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
         facts.add(FindingCode::normalsNotFinite, Severity::error, not_finite, "vertices",
                   "the surface has black spots: the normals of " + countText(not_finite, "vertices") +
                       " are NaN or infinite");
+        setRemedy(facts.findings.back(), invalidNormalsRemedy(facts.primitive));
     }
     if (not_unit.count > 0) {
         // A single normal of length 0 gives NaN in shaders. Other lengths make the relief steeper or flatter in readers
@@ -76,16 +94,15 @@ void checkNormalValues(PrimitiveFacts& facts) {
             facts.surface.area > 0 && far_share >= facts.options.error_share * facts.surface.area && far_share > 0;
         std::string lengths;
         if (scales != nullptr)
-            lengths = " (from " + stepText(scales->min_length) + " to " + stepText(scales->max_length) + ")";
+            lengths = " (from " + shortNumber(scales->min_length) + " to " + shortNumber(scales->max_length) + ")";
         facts.add(FindingCode::normalsNotUnit, zero_count != 0 || is_far ? Severity::error : Severity::warning,
                   not_unit, "vertices",
                   "the shading may be too dark, too bright or too steep: the normals of " +
                       countText(not_unit, "vertices") + " do not have unit length" + lengths +
                       (zero_count != 0 ? "; " + std::to_string(zero_count) + " of them have length 0" : ""));
         if (zero_count != 0) {
-            setRemedy(facts.findings.back(),
-                      "Export the normals again, because those of length 0 cannot be normalized; then recompute the "
-                      "tangents.");
+            // Normals of length 0 cannot be normalized.
+            setRemedy(facts.findings.back(), invalidNormalsRemedy(facts.primitive));
         }
     }
 }
@@ -159,6 +176,13 @@ bool areTrianglesFlipped(const PrimitiveFacts& facts, const Directions& directio
     return true;
 }
 
+/// Tangents may have been computed for the wrong winding; then their signs are wrong after triangles are flipped.
+Remedy windingRemedy(bool has_tangents) {
+    if (!has_tangents) return {"Reverse the winding of those triangles: {}.", {toCommand("generate --fix-winding")}};
+    return {"Reverse the winding of those triangles: {}. Existing tangents are kept where they are right afterwards.",
+            {toCommand("generate --fix-winding --repair")}};
+}
+
 void checkWinding(PrimitiveFacts& facts, const Directions& directions) {
     const TangentView& mesh = facts.mesh;
     Tally against;
@@ -182,8 +206,7 @@ void checkWinding(PrimitiveFacts& facts, const Directions& directions) {
               "parts are lit from the wrong side: the normals of " + countText(against, "triangles") +
                   " point to the back (" + shareText(against.surface_share) + " of the surface)");
     if (areTrianglesFlipped(facts, directions, faces_against))
-        setRemedy(facts.findings.back(), {"Reverse the winding of those triangles: {}. Existing tangents are kept.",
-                                          {toCommand("generate --fix-winding")}});
+        setRemedy(facts.findings.back(), windingRemedy(!facts.primitive.tangents.empty()));
 }
 
 /// Reports normals that are far from the normals of all their triangles. They may be smoothed over hard edges, copied
@@ -267,8 +290,10 @@ Remedy attributeRemedy(const ScenePrimitive& primitive, const SceneAttributeFaul
     if (fault.target >= 0 && fault.name == "NORMAL" && !primitive.normals.empty())
         return {"Export the morph target again; or compute new normal deltas: {}.",
                 {withOption(repair, "morph-normals", "missing")}};
-    if (fault.target < 0 && fault.name == "NORMAL")
+    if (fault.target < 0 && fault.name == "NORMAL") {
+        if (!canRecomputeNormals(primitive)) return {"Export the normals again."};
         return {"Export the normals again; or compute new ones: {}.", {toCommand("generate --overwrite-normals")}};
+    }
     if (fault.target < 0 && std::any_of(primitive.uses.begin(), primitive.uses.end(), isNeeded))
         return {"Export the UVs again: tangents follow them."};
     return {"Export the attribute again; or remove it: {}.", {repair}};

@@ -25,9 +25,12 @@ constexpr std::array<CodeText, kFindingCodeCount> kCodes{{
      "Unwrap those triangles so that they cover an area of the texture. If they intentionally show a single color, "
      "keep them: any tangent in the plane of the surface is valid there."},
     {"normalsMissing", "No action is needed if flat shading is intended; otherwise export the mesh with normals."},
-    {"normalsNotFinite", "Export the normals again."},
+    {"normalsNotFinite",
+     "Export the normals again; or compute new ones, and tangents that fit them: {}.",
+     {"generate --overwrite-normals"}},
     {"normalsNotUnit",
-     "Normalize the normals: {}. Tangents that do not fit them are repaired too.",
+     "Normalize the normals: {}. Their directions do not change, so tangents are kept, except for errors that are "
+     "reported too.",
      {"generate --repair"}},
     {"normalsAgainstWinding",
      "Reverse either the normals or the winding (recalculate outside), whichever is wrong; then recompute the "

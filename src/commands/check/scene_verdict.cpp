@@ -3,6 +3,7 @@
 #include "commands/check/scene_verdict.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <initializer_list>
 #include <map>
@@ -170,9 +171,15 @@ bool makesTangents(const RemedyCommand& command) {
 /// must be computed for it.
 void addConvention(const CheckOptions& options, Finding& finding) {
     if (signFactor(options.convention) == signFactor(conventions::gltf)) return;
+    static constexpr std::array kComputing{"repair", "overwrite", "overwrite-normals", "fix-winding", "morph-normals"};
     for (RemedyCommand& command : finding.commands) {
-        if (makesTangents(command))
-            command.options.insert(command.options.begin() + 1, RemedyOption{"convention", nameOf(options.convention)});
+        std::vector<RemedyOption>& list = command.options;
+        const auto first = std::find_if(list.begin(), list.end(), [](const RemedyOption& option) {
+            return std::find(kComputing.begin(), kComputing.end(), option.name) != kComputing.end();
+        });
+        // Without options, generate computes missing tangents.
+        if (command.verb != "generate" || (first == list.end() && !list.empty())) continue;
+        list.insert(first == list.end() ? first : first + 1, RemedyOption{"convention", nameOf(options.convention)});
     }
 }
 
@@ -409,7 +416,7 @@ class Advice {
             if (!can_compute) setRemedy(finding, primitive.uvsDetermineDirection() ? kUnwrapFirst : kNoUvsToFollow);
             return addConvention(options_, finding);
         }
-        if (!concernsTangents(finding.code)) return;
+        if (!concernsTangents(finding.code)) return addConvention(options_, finding);
         const bool concerns_signs =
             finding.code == FindingCode::signsInverted || finding.code == FindingCode::signsWrong;
         const bool is_error = finding.severity == Severity::error;

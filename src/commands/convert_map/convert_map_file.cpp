@@ -267,6 +267,10 @@ ConvertMapFileReport convert(const std::string& input, const std::string& output
     report.bits = bits;
     if (from != nullptr) report.from = from->report;
     if (to != nullptr) report.to = to->report;
+    for (const MapMesh* const mesh : {from, to}) {
+        if (mesh != nullptr)
+            report.warnings.insert(report.warnings.end(), mesh->warnings.begin(), mesh->warnings.end());
+    }
     const MapImage map{.width = image.width,
                        .height = image.height,
                        .texels = image.texels,

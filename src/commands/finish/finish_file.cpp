@@ -19,6 +19,7 @@
 #include "commands/generate/generate_steps.h"
 #include "core/base/numbers.h"
 #include "model/gltf/container.h"
+#include "model/gltf/primitive_reader.h"
 #include "model/io/atomic_output.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
@@ -190,6 +191,8 @@ class ModelInWork {
         step.output = output_;
         gltf::GeneratedModel made = generateModel(std::move(model), path_, generate, true, step);
         tspace::addWarnings(generate, {}, true, made.report);
+        report_.normals_scaled_count += made.normals_scaled_count;
+        report_.attributes_repaired = report_.attributes_repaired || made.attributes_repaired;
         gltf::Document& document = made.model.document();
         made.report.input_files = {path_};
         made.report.input_files.insert(made.report.input_files.end(), document.input_files.begin(),
@@ -253,6 +256,9 @@ class ModelInWork {
     void take(GenerateReport&& second, const gltf::RecomputedNormals& wishes) {
         GenerateReport& made = report_.made;
         made.changed = made.changed || second.changed;
+        // The second run has replaced normals that the first one warned about.
+        std::erase_if(made.warnings,
+                      [](const std::string& warning) { return warning.starts_with(gltf::kInvalidNormals); });
         addWarnings(std::move(second.warnings));
         for (std::size_t i = 0; i < made.primitives.size() && i < second.primitives.size(); ++i) {
             if (!wishes.base[i] && !wishes.morphs[i]) continue;
@@ -468,6 +474,11 @@ std::vector<std::string> doneTo(const FinishedModel& model) {
                         anew = totals.actions[static_cast<std::size_t>(PrimitiveAction::replaced)];
     if (made != 0) done.push_back("tangents computed for " + counted(made, "primitive"));
     if (anew != 0) done.push_back("tangents repaired or recomputed for " + counted(anew, "primitive"));
+    if (model.normals_scaled_count != 0)
+        done.push_back("normals of " + counted(model.normals_scaled_count, "primitive") + " scaled to unit length");
+    if (model.attributes_repaired) done.emplace_back("attributes that could not be read repaired or removed");
+    if (totals.morph_deltas_computed != 0 && made + anew == 0)
+        done.push_back("tangent deltas computed for " + counted(totals.morph_deltas_computed, "morph target"));
     if (done.empty()) done.emplace_back(model.made.changed ? "only the format was changed" : "no changes were needed");
     return done;
 }

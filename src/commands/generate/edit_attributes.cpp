@@ -193,13 +193,14 @@ std::string repairAttribute(Editor& editor, const Document& document, const Prim
 }  // namespace
 
 std::vector<bool> repairAttributes(Document& document, const std::string& new_file,
-                                   std::span<const Primitive> primitives, std::vector<std::string>& warnings) {
+                                   std::span<const Primitive> primitives, const std::vector<bool>& chosen,
+                                   std::vector<std::string>& warnings) {
     std::vector<bool> lost_normals(primitives.size(), false);
     Editor editor(document, new_file);
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> stored;  // key: accessor and number of components
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const Primitive& primitive = primitives[i];
-        if (!primitive.canRepairFaults()) continue;
+        if (!chosen[i]) continue;
         for (const AttributeFault& fault : primitive.attribute_faults) {
             warnings.push_back(repairAttribute(editor, document, primitive, fault, stored));
             const bool is_removed = fault.repair == AttributeRepair::remove;

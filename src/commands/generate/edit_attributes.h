@@ -54,11 +54,12 @@ void stripTangents(Editor& editor, std::span<const Primitive> primitives, std::s
 void removeUnreadable(Editor& editor, const Primitive& primitive, std::ptrdiff_t target, const std::string& name,
                       std::size_t accessor);
 
-/// Repairs Primitive::attribute_faults as AttributeRepair specifies, except in primitives that no command can repair.
-/// Adds a warning for each repair. Read the primitives again afterwards. Returns which primitives lost their normals,
-/// one entry per primitive.
+/// Repairs Primitive::attribute_faults of the chosen primitives as AttributeRepair specifies. Adds a warning for each
+/// repair. Read the primitives again afterwards. Returns which primitives lost their normals. `chosen` and the result
+/// have one entry per primitive.
 std::vector<bool> repairAttributes(Document& document, const std::string& new_file,
-                                   std::span<const Primitive> primitives, std::vector<std::string>& warnings);
+                                   std::span<const Primitive> primitives, const std::vector<bool>& chosen,
+                                   std::vector<std::string>& warnings);
 
 /// Removes the name of an attribute from a primitive and from its Draco extension. The accessor still counts as used.
 void eraseAttribute(Editor& editor, const Primitive& primitive, const char* name);

@@ -213,66 +213,71 @@ bool flipWrongTriangles(Input& input, const Storage& storage, std::span<const st
     return true;
 }
 
-/// Repairs attributes if requested. Returns whether any were repaired; in this case the container has been converted to
+/// Repairs attributes if requested: all, or those of primitives whose normals are recomputed, because vertices cannot be
+/// split if an attribute has another number of elements. Returns whether any were repaired; in this case the container has been converted to
 /// that of the output. Primitives that lost their normals get new ones.
 bool repairFaults(Input& input, const Storage& storage, bool is_asked_for, RecomputedNormals& recomputed,
                   std::vector<std::string>& warnings) {
     const GenerateOptions& options = input.options;
-    if (!is_asked_for && !options.normals.overwrite && options.selection.existing != ExistingTangents::repair)
-        return false;
+    const bool repairs_all = is_asked_for || options.selection.existing == ExistingTangents::repair;
+    if (!repairs_all && !options.normals.overwrite) return false;
     const std::span<const Primitive> primitives = input.model.primitives();
-    if (std::none_of(primitives.begin(), primitives.end(), [](const Primitive& primitive) {
-            return !primitive.attribute_faults.empty() && primitive.canRepairFaults();
-        }))
-        return false;
     Document& document = input.model.document();
+    std::vector<bool> chosen;
+    for (const Primitive& primitive : primitives)
+        chosen.push_back(!primitive.attribute_faults.empty() && primitive.canRepairFaults() &&
+                         (repairs_all || overwritesNormals(document, primitive, options)));
+    if (std::find(chosen.begin(), chosen.end(), true) == chosen.end()) return false;
     if (options.storage.compression == Compression::keep) convertContainer(document, input.target, true, warnings);
-    const std::vector<bool> lost = repairAttributes(document, storage.new_file, primitives, warnings);
-    recomputed.base.resize(lost.size());
-    for (std::size_t i = 0; i < lost.size(); ++i) recomputed.base[i] = recomputed.base[i] || lost[i];
+    recomputed.lost = repairAttributes(document, storage.new_file, primitives, chosen, warnings);
     input.model.wasEdited();
     return true;
 }
 
-/// If tangents are repaired, scales normals that do not have unit length. Returns whether there were any.
-bool normalizeNormals(Input& input, const Storage& storage, std::vector<std::string>& warnings) {
+/// If tangents are repaired, scales normals that do not have unit length. Returns the number of primitives with such
+/// normals.
+std::size_t normalizeNormals(Input& input, const Storage& storage, std::vector<std::string>& warnings) {
     const std::vector<Primitive>& primitives = input.model.primitives();
     Document& document = input.model.document();
     const auto can_scale = [&](const Primitive& primitive) { return canScaleNormals(document, primitive); };
-    if (input.options.selection.existing != ExistingTangents::repair) return false;
-    if (std::none_of(primitives.begin(), primitives.end(), can_scale)) return false;
+    if (input.options.selection.existing != ExistingTangents::repair) return 0;
+    const auto count = static_cast<std::size_t>(std::count_if(primitives.begin(), primitives.end(), can_scale));
+    if (count == 0) return 0;
     if (input.options.storage.compression == Compression::keep)
         convertContainer(document, input.target, true, warnings);
     writeUnitNormals(document, storage.new_file, primitives);
     input.model.wasEdited();
-    return true;
+    return count;
 }
 
-/// Completes the warning about normals without unit length if the output has only unit normals. `scaled`: primitives
+/// Completes a warning about normals without unit length if the output has only unit normals. `numbers`: primitives
 /// whose normals did not have unit length and were not repaired.
-void noteUnitNormals(std::span<const std::size_t> scaled, const ScaledNormalsWarning& warning, GenerateReport& report) {
-    const bool are_unit = std::all_of(scaled.begin(), scaled.end(),
+void noteUnitNormals(std::span<const std::size_t> numbers, const NormalsWarning& warning, GenerateReport& report) {
+    const bool are_unit = std::all_of(numbers.begin(), numbers.end(),
                                       [&](std::size_t number) { return report.primitives[number].normals_generated; });
-    if (are_unit) report.warnings[warning.number] = warning.lengths + ". The normals in the output have unit length";
+    if (are_unit) report.warnings[warning.number] = warning.facts + ". The normals in the output have unit length";
 }
 
 /// Runs all steps between reading and writing.
 OptionEffects generate(Input& input, bool with_images, const GenerateStep& step, GenerateReport& report) {
     Document& document = input.model.document();
-    std::vector<std::size_t> scaled;
+    std::vector<std::size_t> scaled, invalid;
     for (std::size_t i = 0; i < input.model.primitives().size(); ++i) {
         const Primitive& primitive = input.model.primitives()[i];
         const bool is_repaired =
             input.options.selection.existing == ExistingTangents::repair && canScaleNormals(document, primitive);
         if (primitive.normal_scales != nullptr && !is_repaired) scaled.push_back(i);
+        if (usesInvalidNormals(document, primitive)) invalid.push_back(i);
     }
     report.warnings = document.warnings;
-    const std::optional<ScaledNormalsWarning> scaled_normals = document.scaled_normals;
+    const std::optional<NormalsWarning> scaled_normals = document.scaled_normals,
+                                        invalid_normals = document.invalid_normals;
     std::copy_n(document.coordinate_offset.begin(), 3, report.coordinate_offset);
     const Storage storage = prepareStorage(input, report.warnings);
     RecomputedNormals recomputed = step.normals;
     const bool was_repaired = repairFaults(input, storage, step.repairs_attributes, recomputed, report.warnings);
-    const bool were_repaired = normalizeNormals(input, storage, report.warnings);
+    const std::size_t scaled_count = normalizeNormals(input, storage, report.warnings);
+    const bool were_repaired = scaled_count != 0;
     reportProgress(input.options, "reading", 1, 1);
     WindingPlan winding;
     const bool was_turned =
@@ -288,9 +293,13 @@ OptionEffects generate(Input& input, bool with_images, const GenerateStep& step,
     // Images are embedded after the decisions on maps, which find images by their names.
     if (with_images) embedImagesInGlb(document, input.target, report.warnings);
     reportProgress(input.options, "reading", 1, 1);
-    const OptionEffects effects = edit(input, storage, std::move(decisions), report);
+    const bool has_unreadable_tangents = decisions.has_unreadable_tangents;
+    OptionEffects effects = edit(input, storage, std::move(decisions), report);
+    effects.attributes_repaired = was_repaired || has_unreadable_tangents;
+    effects.normals_scaled_count = scaled_count;
     report.changed = report.changed || was_turned || were_repaired || was_repaired;
     if (scaled_normals) noteUnitNormals(scaled, *scaled_normals, report);
+    if (invalid_normals) noteUnitNormals(invalid, *invalid_normals, report);
     countFlipped(winding, report.primitives);
     return effects;
 }
@@ -352,9 +361,9 @@ GeneratedModel generateModel(Model&& model, const GenerateOptions& options, bool
                              const GenerateStep& step) {
     Input input = toInput(std::move(model), "model.glb", true, options);
     GenerateReport report;
-    generate(input, with_images, step, report);
+    const OptionEffects effects = generate(input, with_images, step, report);
     input.model.reload();
-    return {std::move(input.model), std::move(report)};
+    return {std::move(input.model), std::move(report), effects.attributes_repaired, effects.normals_scaled_count};
 }
 
 Result<GenerateReport> generateGltf(const std::string& input, const std::string& output, const GenerateOptions& options,

@@ -34,6 +34,8 @@ namespace tspace::gltf {
 struct GeneratedModel {
     Model model;
     GenerateReport report = {};
+    bool attributes_repaired = false;      ///< as in OptionEffects
+    std::size_t normals_scaled_count = 0;  ///< as in OptionEffects
 };
 
 /// Generates the contents of a GLB, and returns the model as if it were read from that GLB. `with_images`: embeds the

@@ -80,7 +80,12 @@ struct RecomputedNormals {
     std::vector<bool> base = {};
     /// per primitive: recompute all normal deltas of its targets (as MorphNormals::all does for all)
     std::vector<bool> morphs = {};
+    /// per primitive: its normals could not be read and were removed, so they are recomputed
+    std::vector<bool> lost = {};
 };
+
+/// Returns whether GenerateOptions::Normals::overwrite recomputes the normals of the primitive.
+bool overwritesNormals(const Document& document, const Primitive& primitive, const GenerateOptions& options);
 
 GeneratePlan planGenerate(const Document& document, std::span<const Primitive> primitives,
                           const GenerateOptions& options, const RecomputedNormals& recomputed = {});

@@ -105,9 +105,11 @@ namespace tspace {
 
 /// Effects of options that the report does not contain.
 struct OptionEffects {
-    bool far_coordinates = false;     ///< coordinates far from the origin kept their offset
-    bool texture_transforms = false;  ///< tangents that were computed or examined follow textures with transforms
-    bool compression = false;         ///< geometry was compressed or decompressed
+    bool far_coordinates = false;          ///< coordinates far from the origin kept their offset
+    bool texture_transforms = false;       ///< tangents that were computed or examined follow textures with transforms
+    bool compression = false;              ///< geometry was compressed or decompressed
+    bool attributes_repaired = false;      ///< attributes that could not be read were repaired or removed
+    std::size_t normals_scaled_count = 0;  ///< primitives whose normals were scaled to length 1
 };
 
 /// Adds warnings about triangles whose winding is opposite to that of their neighbors, and about new normals that point

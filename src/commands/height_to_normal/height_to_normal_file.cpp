@@ -104,6 +104,7 @@ HeightToNormalFileReport convertHeights(const std::string& input, const std::str
         mesh = readNamedMapMesh(options.mesh, {.material = options.material, .image_name = fileNameOf(input)},
                                 options.tangents, options.file, options.execution);
         report.mesh = mesh.report;
+        report.warnings.insert(report.warnings.end(), mesh.warnings.begin(), mesh.warnings.end());
     }
     const std::vector<float> heights = is_gray ? heightsOf(image) : terrainHeights(options.encoding, image);
     const TextureWrap wrap_u = options.clamp ? TextureWrap::clamp : mesh.wrap_u;

@@ -196,16 +196,21 @@ struct MeshDraws {
     std::uint64_t instance_count = 0;
 };
 
-/// Returns the number of instances. All instancing attributes of a node have one element per instance.
+/// Returns the number of instances. All instancing attributes of a node have one element per instance; if their numbers
+/// differ, the smallest one is the number of complete instances.
 std::uint64_t instanceCount(const Document& document, const Json& node, const std::string& place) {
     const Json* instancing = findExtension(node, "EXT_mesh_gpu_instancing");
     const Json* attributes = instancing == nullptr ? nullptr : findMember(*instancing, "attributes");
     if (attributes == nullptr || !attributes->is_object() || attributes->empty()) return 1;
     const std::string attribute_place = place + "/extensions/EXT_mesh_gpu_instancing/attributes";
-    const auto [name, first] = *attributes->items().begin();
-    const std::size_t accessor =
-        toIndex(first, join(attribute_place, name), rootArray(document, "accessors").size(), "accessor");
-    return readAccessor(document, accessor).count;
+    std::optional<std::uint64_t> count;
+    for (const auto& [name, index] : attributes->items()) {
+        const std::size_t accessor =
+            toIndex(index, join(attribute_place, name), rootArray(document, "accessors").size(), "accessor");
+        const std::uint64_t elements = readAccessor(document, accessor).count;
+        count = std::min(count.value_or(elements), elements);
+    }
+    return *count;
 }
 
 std::vector<MeshDraws> meshDraws(const Document& document) {
@@ -251,7 +256,7 @@ Inspection inspectGltf(const std::string& input, const FileOptions& options) {
     result.extensions_required = readNames(document.json, "extensionsRequired");
     checkRequiredExtensions(document);
     const std::vector<Primitive> primitives = readPrimitives(document);
-    warnOfScaledNormals(document, primitives);
+    warnOfNormals(document, primitives);
     result.warnings = document.warnings;
     std::copy_n(document.coordinate_offset.begin(), 3, result.coordinate_offset);
     result.variants = variantNames(document);

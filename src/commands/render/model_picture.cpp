@@ -321,6 +321,7 @@ void ModelPicture::place() {
     }
     for (std::size_t i = 0; i < drawn_.placements.size(); ++i) {
         const ScenePlacement& placement = drawn_.placements[i];
+        if (!placement.is_visible) continue;
         const std::size_t primitive = placement.primitive;
         const ScenePose* const posed = i < poses_.size() && !poses_[i].empty() ? &poses_[i] : nullptr;
         if (posed == nullptr || surfaces_[primitive].shown.corners.empty()) {

@@ -246,6 +246,7 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
     }
     if (choice.needs_material && choice.material.empty() && chosen.front().is_guess) checkMaterials(chosen);
     MapMesh mesh;
+    mesh.warnings = scene.normalsWarnings();
     mesh.report.scale = scaleOf(chosen);
     // Tiles of UDIM layouts are adjacent, so the wrap mode of the texture is not used.
     if (chosen.front().use != nullptr && choice.tile == 0) {
@@ -297,7 +298,9 @@ FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOp
 MapMesh readNamedMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
                          const FileOptions& file, const Execution& execution) {
     try {
-        return readMapMesh(model, choice, tangents, file, execution);
+        MapMesh mesh = readMapMesh(model, choice, tangents, file, execution);
+        for (std::string& warning : mesh.warnings) warning = "the model " + pathInQuotes(model) + ": " + warning;
+        return mesh;
     } catch (FileError& failure) {
         failure.error.message = "the model " + pathInQuotes(model) + ": " + failure.error.message;
         throw;

@@ -26,6 +26,7 @@ struct MapMesh {
     TextureWrap wrap_u = TextureWrap::repeat,
                 wrap_v = TextureWrap::repeat;  ///< wrap modes of the first primitive's texture
     MapMeshReport report = {};
+    std::vector<std::string> warnings = {};  ///< warnings about normals of the model
 };
 
 /// Returns whether the image is used as a normal map.
@@ -57,7 +58,7 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
 FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOptions& file,
                         ImageUse use = ImageUse::vectors);
 
-/// Calls readMapMesh, and adds the name of the model to its errors, because errors of a call are printed with the name
+/// Calls readMapMesh, and adds the name of the model to its errors and warnings, because errors of a call are printed with the name
 /// of the image.
 MapMesh readNamedMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
                          const FileOptions& file, const Execution& execution);

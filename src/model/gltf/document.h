@@ -59,10 +59,10 @@ struct Buffer {
     }
 };
 
-/// Warning about normals whose length is not 1 (see NormalScales).
-struct ScaledNormalsWarning {
-    std::size_t number = 0;    ///< index in Document::warnings
-    std::string lengths = {};  ///< first sentence, without the period: how many normals, where, and their lengths
+/// Warning about normals whose length is not 1 (see NormalScales and InvalidNormals).
+struct NormalsWarning {
+    std::size_t number = 0;  ///< index in Document::warnings
+    std::string facts = {};  ///< first sentence, without the period: how many normals, where, and their lengths
 };
 
 struct Document {
@@ -94,8 +94,9 @@ struct Document {
     FileOptions options = {};
     /// Images that are written next to the output, keyed by the path of their URI.
     std::map<std::string, Bytes> new_files = {};
-    std::vector<std::string> warnings = {};                                   ///< warnings from reading the file
-    std::optional<ScaledNormalsWarning> scaled_normals = {};                  ///< describes one of the warnings
+    std::vector<std::string> warnings = {};  ///< warnings from reading the file
+    /// Describe one of the warnings each.
+    std::optional<NormalsWarning> scaled_normals = {}, invalid_normals = {};
     std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< remaining memory budget
 };
 

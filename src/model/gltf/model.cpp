@@ -20,7 +20,7 @@ std::vector<Primitive>& Model::primitives() {
         const std::int64_t left = document_->memory->left();
         primitives_ = readPrimitives(*document_);
         primitive_bytes_ = left - document_->memory->left();
-        warnOfScaledNormals(*document_, *primitives_);
+        warnOfNormals(*document_, *primitives_);
     }
     return *primitives_;
 }
@@ -115,6 +115,7 @@ void Model::reload() {
     document.imported = document.may_hide_tangents = false;
     document.warnings.clear();
     document.scaled_normals.reset();
+    document.invalid_normals.reset();
     checkRequiredExtensions(document);
     document.views_without_data.clear();
     document.elements.clear();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <set>
 #include <string_view>
 
 #include "core/base/numbers.h"
@@ -208,10 +209,17 @@ double storedScale(const Vec3& normal) {
     return size >= kMin && size < kLeastLength ? 1 / size : unitScale(normal);
 }
 
-std::shared_ptr<const NormalScales> findScales(const Document& document, const Accessor& accessor) {
+/// Scales of the normals of one accessor, and those without a direction; null if there are none.
+struct NormalLengths {
+    std::shared_ptr<const NormalScales> scales = {};
+    std::shared_ptr<const InvalidNormals> invalid = {};
+};
+
+NormalLengths findLengths(const Document& document, const Accessor& accessor) {
+    if (accessor.type != "VEC3" || !hasData(document, accessor)) return {};
     // Normals that are not stored are all zero, and the file size does not limit their number.
     const bool is_stored = accessor.view || accessor.sparse || document.elements.count(accessor.index) != 0;
-    if (accessor.type != "VEC3" || !is_stored || !hasData(document, accessor)) return nullptr;
+    if (!is_stored) return {.invalid = std::make_shared<InvalidNormals>(InvalidNormals{.are_all = true})};
     std::optional<StridedSpan<const Vec3>> normals = viewVectors<Vec3>(document, accessor);
     std::vector<Vec3> decoded;
     if (!normals) {
@@ -220,9 +228,20 @@ std::shared_ptr<const NormalScales> findScales(const Document& document, const A
         normals = StridedSpan<const Vec3>(std::span<const Vec3>(decoded));
     }
     std::shared_ptr<NormalScales> scales;
+    std::shared_ptr<InvalidNormals> invalid;
     for (std::size_t v = 0; v < normals->count; ++v) {
-        const double scale = storedScale((*normals)[v]);
-        if (scale == 1) continue;
+        const Vec3& normal = (*normals)[v];
+        const double scale = storedScale(normal);
+        if (scale == 1) {
+            if (length(toDouble(normal)) >= kLeastLength && isFinite(normal)) continue;
+            if (invalid == nullptr) {
+                document.memory->take(normals->count / 8, accessor.place());
+                invalid = std::make_shared<InvalidNormals>();
+                invalid->of_vertices.resize(normals->count);
+            }
+            invalid->of_vertices[v] = true;
+            continue;
+        }
         if (scales == nullptr) {
             document.memory->take(std::uint64_t{normals->count} * sizeof(double), accessor.place());
             scales = std::make_shared<NormalScales>();
@@ -234,23 +253,23 @@ std::shared_ptr<const NormalScales> findScales(const Document& document, const A
         scales->max_length = std::max(scales->max_length, 1 / scale);
         ++scales->count;
     }
-    return scales;
+    return {std::move(scales), std::move(invalid)};
 }
 
-/// Computes the scales of normals that do not have unit length. Skips unreadable normals: reading them later reports
-/// the reason.
-void findScales(const Document& document, std::vector<Primitive>& primitives) {
-    std::map<std::size_t, std::shared_ptr<const NormalScales>> known;
+/// Examines the lengths of all normals. Skips unreadable normals: reading them later reports the reason.
+void findLengths(const Document& document, std::vector<Primitive>& primitives) {
+    std::map<std::size_t, NormalLengths> known;
     for (Primitive& primitive : primitives) {
         const auto index = primitive.find("NORMAL");
         if (!index) continue;
         const auto [entry, is_new] = known.try_emplace(*index);
         std::optional<Error> failure;
         if (is_new)
-            failure = tryFile(
-                [&, &scales = entry->second] { scales = findScales(document, readAccessor(document, *index)); });
+            failure =
+                tryFile([&, &found = entry->second] { found = findLengths(document, readAccessor(document, *index)); });
         if (failure && failure->code == ErrorCode::tooLarge) throw FileError{*failure};
-        primitive.normal_scales = entry->second;
+        primitive.normal_scales = entry->second.scales;
+        primitive.invalid_normals = entry->second.invalid;
     }
 }
 
@@ -339,45 +358,124 @@ std::vector<Primitive> readPrimitives(const Document& document) {
             primitives.back().mesh_name = name;
         }
     }
-    findScales(document, primitives);
+    findLengths(document, primitives);
     return primitives;
 }
 
-void warnOfScaledNormals(Document& document, std::span<const Primitive> primitives) {
-    if (document.scaled_normals) {
-        document.warnings.erase(document.warnings.begin() +
-                                static_cast<std::ptrdiff_t>(document.scaled_normals->number));
-        document.scaled_normals.reset();
+namespace {
+
+/// Names of the first primitives that a warning is about.
+class NamedPrimitives {
+  public:
+    void add(const Primitive& primitive) {
+        constexpr std::size_t kMaxNamed = 3;
+        if (count_++ < kMaxNamed)
+            text_ += (text_.empty() ? "mesh " : "; mesh ") + std::to_string(primitive.mesh) + ", primitive " +
+                     std::to_string(primitive.index);
+        else
+            ++more_count_;
     }
-    constexpr std::size_t kMaxNamed = 3;
-    std::map<const NormalScales*, const Primitive*> first_with;
-    std::string named;
-    std::size_t count = 0, primitive_count = 0;
+    [[nodiscard]] std::string text() const {
+        return " (" + text_ + (more_count_ == 0 ? "" : "; and " + std::to_string(more_count_) + " more") + ")";
+    }
+
+  private:
+    std::string text_ = {};
+    std::size_t count_ = 0, more_count_ = 0;
+};
+
+std::vector<std::uint32_t> withoutRepeats(std::vector<std::uint32_t>&& numbers) {
+    sortList(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    return std::move(numbers);
+}
+
+std::string verticesText(std::size_t count) { return std::to_string(count) + (count == 1 ? " vertex" : " vertices"); }
+
+/// Returns the vertices that triangles use and whose normals have no direction. Returns none if the indices cannot be
+/// read: reading them later reports the reason.
+std::vector<std::uint32_t> usedInvalidNormals(const Document& document, const Primitive& primitive) {
+    std::vector<std::uint32_t> used;
+    if (primitive.invalid_normals == nullptr) return used;
+    const std::optional<Error> failure = tryFile([&] {
+        document.memory->require(std::uint64_t{12} * primitive.triangleCount(), primitive.place());
+        used = readTriangleCorners(document, primitive);
+    });
+    if (failure && failure->code == ErrorCode::tooLarge) throw FileError{*failure};
+    std::erase_if(used, [&](std::uint32_t vertex) { return !primitive.invalid_normals->contains(vertex); });
+    return withoutRepeats(std::move(used));
+}
+
+void addWarning(Document& document, std::string&& facts, const std::string& rest,
+                std::optional<NormalsWarning>& warning) {
+    document.warnings.push_back(facts + rest);
+    warning = {.number = document.warnings.size() - 1, .facts = std::move(facts)};
+}
+
+void warnOfScaledNormals(Document& document, std::span<const Primitive> primitives) {
+    std::set<const NormalScales*> known;
+    NamedPrimitives named;
+    std::size_t count = 0;
     double least = 0, most = 0;
     bool are_some_unsigned = false;
     for (const Primitive& primitive : primitives) {
         const NormalScales* const scales = primitive.normal_scales.get();
         if (scales == nullptr) continue;
         are_some_unsigned = are_some_unsigned || areUnsigned(document, primitive.find("NORMAL"));
-        if (primitive_count++ < kMaxNamed)
-            named += (named.empty() ? "mesh " : "; mesh ") + std::to_string(primitive.mesh) + ", primitive " +
-                     std::to_string(primitive.index);
-        if (!first_with.try_emplace(scales, &primitive).second) continue;
+        named.add(primitive);
+        if (!known.insert(scales).second) continue;
         least = count == 0 ? scales->min_length : std::min(least, scales->min_length);
         most = std::max(most, scales->max_length);
         count += scales->count;
     }
     if (count == 0) return;
-    if (primitive_count > kMaxNamed) named += "; and " + std::to_string(primitive_count - kMaxNamed) + " more";
-    const std::string lengths = "normals that do not have unit length: " + std::to_string(count) +
-                                (count == 1 ? " vertex" : " vertices") + " (" + named + ") with lengths from " +
-                                shortNumber(least) + " to " + shortNumber(most);
-    document.scaled_normals = {.number = document.warnings.size(), .lengths = lengths};
-    document.warnings.push_back(
-        lengths +
-        ". They were normalized for the computation, and the file keeps them unchanged (tspace "
-        "generate --repair writes unit normals" +
-        (are_some_unsigned ? ", but keeps unsigned ones; --overwrite-normals replaces them)" : ")"));
+    addWarning(document,
+               "normals that do not have unit length: " + verticesText(count) + named.text() + " with lengths " +
+                   "from " + shortNumber(least) + " to " + shortNumber(most),
+               std::string(". They were normalized for the computation, and the file keeps them unchanged (tspace "
+                           "generate --repair writes unit normals") +
+                   (are_some_unsigned ? ", but keeps unsigned ones; --overwrite-normals replaces them)" : ")"),
+               document.scaled_normals);
+}
+
+void warnOfInvalidNormals(Document& document, std::span<const Primitive> primitives) {
+    std::map<const InvalidNormals*, std::vector<std::uint32_t>> used_of;
+    NamedPrimitives named;
+    for (const Primitive& primitive : primitives) {
+        const std::vector<std::uint32_t> used = usedInvalidNormals(document, primitive);
+        if (used.empty()) continue;
+        named.add(primitive);
+        // Primitives that share normals are counted together.
+        std::vector<std::uint32_t>& all = used_of[primitive.invalid_normals.get()];
+        all.insert(all.end(), used.begin(), used.end());
+        all = withoutRepeats(std::move(all));
+    }
+    std::size_t count = 0;
+    for (const auto& [normals, used] : used_of) count += used.size();
+    if (count == 0) return;
+    addWarning(document, std::string(kInvalidNormals) + ": " + verticesText(count) + named.text(),
+               ". The surface has no direction there, so frames and shading are arbitrary (tspace generate "
+               "--overwrite-normals computes new normals)",
+               document.invalid_normals);
+}
+
+}  // namespace
+
+bool usesInvalidNormals(const Document& document, const Primitive& primitive) {
+    return !usedInvalidNormals(document, primitive).empty();
+}
+
+void warnOfNormals(Document& document, std::span<const Primitive> primitives) {
+    const auto remove = [&](std::optional<NormalsWarning>& warning, std::optional<NormalsWarning>& other) {
+        if (!warning) return;
+        document.warnings.erase(document.warnings.begin() + static_cast<std::ptrdiff_t>(warning->number));
+        if (other && other->number > warning->number) --other->number;
+        warning.reset();
+    };
+    remove(document.scaled_normals, document.invalid_normals);
+    remove(document.invalid_normals, document.scaled_normals);
+    warnOfScaledNormals(document, primitives);
+    warnOfInvalidNormals(document, primitives);
 }
 
 std::vector<std::uint32_t> readTriangleCorners(const Document& document, const Primitive& primitive) {

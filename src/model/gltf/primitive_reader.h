@@ -76,6 +76,8 @@ struct Primitive {
     std::vector<UnreadableTangents> unreadable_tangents = {};
     /// Scales that give normals unit length; null: none needed. Primitives with the same NORMAL share them.
     std::shared_ptr<const NormalScales> normal_scales = {};
+    /// Normals without a direction; null: none. Primitives with the same NORMAL share them.
+    std::shared_ptr<const InvalidNormals> invalid_normals = {};
     /// Invalid attributes; not contained in `attributes` or `targets`, and treated as missing.
     std::vector<AttributeFault> attribute_faults = {};
     std::size_t vertex_count = 0;
@@ -118,9 +120,15 @@ std::vector<Primitive> readPrimitives(const Document& document);
 /// Incomplete triangles at the end are skipped. Every index is checked.
 std::vector<std::uint32_t> readTriangleCorners(const Document& document, const Primitive& primitive);
 
-/// Adds a warning to the document if normals are scaled, with the number of vertices and the primitives. Replaces an
-/// earlier warning.
-void warnOfScaledNormals(Document& document, std::span<const Primitive> primitives);
+/// Beginning of the warning about normals without a direction.
+inline constexpr const char* kInvalidNormals = "normals of length 0, NaN or infinite";
+
+/// Adds a warning to the document if normals are scaled, and one if triangles use normals without a direction, with the
+/// number of vertices and the primitives. Replaces earlier warnings.
+void warnOfNormals(Document& document, std::span<const Primitive> primitives);
+
+/// Returns whether a triangle uses a normal without a direction.
+bool usesInvalidNormals(const Document& document, const Primitive& primitive);
 
 /// Read one attribute as floats. The attribute must exist. Normals have length 1: see NormalScales.
 std::vector<Vec2> readUvs(const Document& document, const Primitive& primitive, std::size_t uv_set);

@@ -151,6 +151,14 @@ struct NormalScales {
     double min_length = 0, max_length = 0;  ///< range of the lengths of the scaled normals
 };
 
+/// Normals without a direction, which cannot be scaled to length 1: of length 0, NaN or infinite.
+struct InvalidNormals {
+    bool are_all = false;                ///< every normal is invalid
+    std::vector<bool> of_vertices = {};  ///< whether the normal is invalid; empty if are_all
+
+    [[nodiscard]] bool contains(std::size_t vertex) const { return are_all || of_vertices[vertex]; }
+};
+
 struct ScenePrimitive {
     std::string place = {};  ///< JSON pointer (glTF), or "usemtl NAME" (OBJ)
     std::uint32_t mesh = 0;
@@ -242,9 +250,14 @@ struct Scene {
     std::vector<ScenePrimitive> primitives = {};  ///< primitives, in file order
     std::vector<SceneImage> images = {};          ///< referenced by TangentUse::image
     std::vector<std::string> warnings = {};       ///< warnings of the reader
-    /// Index, in `warnings`, of the warning about scaled normals. Checks report these normals by findings on their
-    /// primitives instead.
-    std::optional<std::size_t> scaled_normals_warning = {};
+    /// Indices, in `warnings`, of the warnings about scaled and invalid normals. Checks report these normals by findings
+    /// on their primitives instead.
+    std::vector<std::size_t> normals_warnings = {};
+    [[nodiscard]] std::vector<std::string> normalsWarnings() const {
+        std::vector<std::string> texts;
+        for (const std::size_t number : normals_warnings) texts.push_back(warnings[number]);
+        return texts;
+    }
     DVec3 offset = {};                          ///< offset subtracted from all positions while reading (OBJ)
     std::shared_ptr<MemoryBudget> memory = {};  ///< remaining memory budget
 };
@@ -275,6 +288,7 @@ struct ScenePlacement {
     Affine to_world = {};
     std::string node_name = {};            ///< name of the node that places it; may be empty
     std::optional<std::size_t> node = {};  ///< index of the node in the file (glTF)
+    bool is_visible = true;                ///< false: hidden by the node or a parent (KHR_node_visibility)
 };
 
 struct DrawnScene {
