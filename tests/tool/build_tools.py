@@ -107,7 +107,24 @@ for wrong in (["generate", "two.gltf", "--in-place", "--depfile", "x.d"], ["chec
               ["generate", "two.gltf", "-o", "-", "--depfile", "x.d"], ["generate", "two.gltf", "-o", "x.glb", "--dry-run", "--depfile", "x.d"]):
     expect(run(*wrong).returncode == 2 and not os.path.exists("x.d"), f"{wrong} is not refused")
 expect(run("generate", "-q", "missing.glb", "-o", "m.glb", "--depfile", "m.d").returncode == 4 and not os.path.exists("m.d"), "a failed run leaves a depfile")
-expect(run("generate", "-q", "two.gltf", "-o", "same.glb", "--depfile", "same.glb").returncode != 0, "the depfile is the output")
+# A depfile that is another file of the run is wrong usage: no output is written, and no file is changed.
+write_library("named.mtl", "named.png")
+write_model("named.obj", "named.mtl")
+with open("named.png", "wb") as file:
+    file.write(b"not an image")
+kept = {name: open(name, "rb").read() for name in ("two.gltf", "two.bin", "named.obj", "named.mtl", "named.png")}
+for wrong, name in ((["generate", "two.gltf", "-o", "same.glb"], "same.glb"), (["generate", "two.gltf", "-o", "same.glb"], "two.gltf"),
+                    (["generate", "two.gltf", "-o", "same.glb"], "two.bin"), (["generate", "named.obj", "--all", "-o", "same.glb"], "named.mtl"),
+                    (["generate", "two.gltf", "-o", "same.glb", "--manifest", "same.jsonl"], "same.jsonl"),
+                    (["check", "two.gltf", "--html", "same.html"], "same.html"), (["check", "two.gltf", "--html", "same.html"], "two.bin"),
+                    (["finish", "two.gltf", "-o", "same.glb", "--report", "same.json"], "same.json"),
+                    (["finish", "named.obj", "-o", "same.glb"], "named.mtl")):
+    refused = run(*wrong, "-q", "--depfile", name)
+    made = [one for one in os.listdir(".") if one.startswith("same.")]
+    expect(refused.returncode == 2 and not made, f"{wrong} --depfile {name}: {refused.returncode}, {made}, {refused.stderr.decode()}")
+refused = run("finish", "named.obj", "-o", "same.glb", "-q", "--report", "named.mtl")
+expect(refused.returncode == 2 and not os.path.exists("same.glb"), f"--report of an input: {refused.stderr.decode()}")
+expect(kept == {name: open(name, "rb").read() for name in kept}, "an input was changed")
 
 # Lists of inputs (--inputs).
 for command, more in (("check", []), ("inspect", []), ("identify", []), ("generate", ["--all", "-o", "made/"])):

@@ -55,6 +55,7 @@ ExitCode runBake(const BakeArguments& arguments) {
         .input = arguments.low, .output = arguments.output, .result = bake(arguments, read)};
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     outcome.seconds = took.count();
+    rejectReportOfInput(outcome.result, arguments.report, read, held);
     return commitAndPrint(held, [&](const Error* failure) {
         if (failure != nullptr) outcome.result = *failure;
         const Result<BakeFileReport>& result = outcome.result;
@@ -65,7 +66,7 @@ ExitCode runBake(const BakeArguments& arguments) {
         if (result && result->output_files.empty()) {
             for (const std::string& finding : result->findings) printRemark(finding);
         }
-        if (!arguments.report.empty()) {
+        if (isReported(result, arguments.report, read)) {
             const Result<Done> written =
                 writeTextFile(arguments.report, report::bakeJson(outcome, arguments.high, exit_code), &read);
             if (!written) exit_code = worse(exit_code, printError(arguments.report, written.error()));

@@ -225,7 +225,7 @@ class PairsRun {
             done.outcome.was_done_before = record_.isDone(pair.job, options);
             return done.outcome.was_done_before ? BakeFileReport{} : bake(pair, read);
         };
-        makeAndCommit(done.outcome, make, [&] {
+        makeAndCommit(done.outcome, false, make, [&] {
             const std::chrono::duration<double> took = Clock::now() - start;
             done.outcome.seconds = took.count();
             if (done.outcome.result && !arguments_.json && !arguments_.quiet)

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <set>
 #include <string_view>
 #include <utility>
 
 #include "commands/shared/file_options.h"
-#include "console.h"
-#include "model/io/atomic_output.h"
-#include "model/io/recorded_files.h"
+#include "model/io/file_io.h"
 #include "output_files.h"
 
 namespace tspace::tool {
@@ -37,28 +36,35 @@ bool isOutputOption(const Option& option) {
     return std::find(std::begin(kOutputOptions), std::end(kOutputOptions), option.name()) != std::end(kOutputOptions);
 }
 
-ExitCode runRecorded(const std::string& path, const std::function<ExitCode()>& run) {
-    std::vector<std::string> inputs, outputs;
-    ExitCode exit_code = ExitCode::done;
-    {
-        const RecordedFiles recorded;
-        const ProtectedFiles kept({path});
-        exit_code = run();
-        inputs = recorded.inputs();
-        outputs = recorded.outputs();
-    }
-    // A failed run has already printed the reason.
-    if (outputs.empty() || (exit_code != ExitCode::done && exit_code != ExitCode::findings)) return exit_code;
-    const std::string identity = identityOf(path);
-    if (std::any_of(inputs.begin(), inputs.end(),
-                    [&](const std::string& input) { return identityOf(input) == identity; }))
-        return worse(exit_code, printUsageError("the output " + path + " is an input"));
-    const Result<std::string> text = depfileText(outputs, inputs);
-    const Result<Done> written = text ? writeTextFile(path, *text) : Result<Done>(text.error());
-    return written ? exit_code : worse(exit_code, printError(path, written.error()));
-}
+Depfile* depfile_of_run = nullptr;
 
 }  // namespace
+
+Depfile::Depfile(const std::string& path) : path_(path), kept_(std::in_place, std::vector<std::string>{path}) {
+    depfile_of_run = this;
+}
+
+Depfile::~Depfile() { depfile_of_run = nullptr; }
+
+Depfile* Depfile::ofRun() { return depfile_of_run; }
+
+Result<Done> Depfile::write(const std::vector<std::string>& held) {
+    std::vector<std::string> outputs = recorded_.outputs(), inputs = recorded_.inputs();
+    outputs.insert(outputs.end(), held.begin(), held.end());
+    if (outputs.empty()) return Done{};
+    std::set<std::string> written;
+    for (const std::string& output : held) written.insert(identityOf(output));
+    std::erase_if(inputs, [&](const std::string& input) { return written.contains(identityOf(input)); });
+    const std::string identity = identityOf(path_);
+    if (std::any_of(inputs.begin(), inputs.end(),
+                    [&](const std::string& input) { return identityOf(input) == identity; }))
+        return Error{ErrorCode::invalidOption, "the output " + path_ + " is an input"};
+    const Result<std::string> text = depfileText(outputs, inputs);
+    if (!text) return text.error();
+    kept_.reset();
+    depfile_of_run = nullptr;
+    return writeTextFile(path_, *text);
+}
 
 Result<std::string> depfileText(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
     for (const std::vector<std::string>* names : {&outputs, &inputs}) {
@@ -109,7 +115,11 @@ void addDepfile(Command& command) {
         return code == ExitCode::done ? run() : code;
     };
     command.prepare = {};
-    command.run = [path, run] { return path->empty() ? run() : runRecorded(*path, run); };
+    command.run = [path, run] {
+        std::optional<Depfile> depfile;
+        if (!path->empty()) depfile.emplace(*path);
+        return run();
+    };
 }
 
 }  // namespace tspace::tool

@@ -56,6 +56,7 @@ ExitCode runFinish(const FinishArguments& arguments) {
                                           .result = finish(arguments, read, origin ? *origin : PageOrigin{})};
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     outcome.seconds = took.count();
+    rejectReportOfInput(outcome.result, arguments.report, read, held);
     return commitAndPrint(held, [&](const Error* failure) {
         if (failure != nullptr) outcome.result = *failure;
         const Result<FinishReport>& result = outcome.result;
@@ -65,7 +66,7 @@ ExitCode runFinish(const FinishArguments& arguments) {
         if (result && result->output_files.empty()) {
             for (const std::string& finding : result->bake->findings) printRemark(finding);
         }
-        if (!arguments.report.empty()) {
+        if (isReported(result, arguments.report, read)) {
             const Result<Done> written =
                 writeTextFile(arguments.report, report::finishJson(outcome, options.low, exit_code), &read);
             if (!written) exit_code = worse(exit_code, printError(arguments.report, written.error()));

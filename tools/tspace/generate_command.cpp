@@ -115,6 +115,10 @@ class GenerateRun {
         const auto is_written = [](const report::GenerateOutcome& outcome) { return outcome.result.ok(); };
         const bool has_outputs = std::any_of(outcomes_.begin(), outcomes_.end(), is_written);
         const auto report = [&] {
+            if (Depfile* const depfile = Depfile::ofRun(); depfile != nullptr && exit_code_ == ExitCode::done) {
+                if (const Result<Done> written = depfile->write({}); !written)
+                    exit_code_ = printError(depfile->path(), written.error());
+            }
             std::string last;
             if (arguments_.json) {
                 const bool is_prepared = outcomes_.size() == 1 && exit_code_ == ExitCode::done;
@@ -157,7 +161,7 @@ class GenerateRun {
             outcome.was_done_before = job.error.code == ErrorCode::ok && record_.isDone(job, arguments_.option_text);
             return outcome.was_done_before ? GenerateReport{} : generate(job);
         };
-        makeAndCommit(outcome, make, [&] {
+        makeAndCommit(outcome, jobs_.size() == 1, make, [&] {
             outcome.seconds = secondsSince(start);
             if (outcome.result) {
                 texts_[number] = textOf(outcome);

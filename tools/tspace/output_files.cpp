@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "depfile.h"
 #include "model/io/abandoned_files.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
@@ -23,8 +24,10 @@ Result<Done> prepareOutputs(const std::vector<std::string>& outputs, const std::
     for (const std::string& input : inputs) {
         if (isFile(input)) names.emplace(identityOf(input), "an input");
     }
+    std::vector<std::string> all = outputs;
+    if (const Depfile* depfile = Depfile::ofRun()) all.push_back(depfile->path());
     std::set<std::string> folders;
-    for (const std::string& output : outputs) {
+    for (const std::string& output : all) {
         if (!isFile(output)) continue;
         const auto [other, is_new] = names.emplace(identityOf(output), "the same file as the output " + output);
         if (!is_new) return Error{ErrorCode::invalidOption, "the output " + output + " is " + other->second};

@@ -10,6 +10,7 @@
 
 #include "console.h"
 #include "core/base/border.h"
+#include "depfile.h"
 #include "model/io/atomic_output.h"
 
 namespace tspace::tool {
@@ -33,6 +34,17 @@ inline std::string lineWithoutReport(const std::vector<std::string>& files) {
     return line + "\n";
 }
 
+/// Puts the last outputs of a run in place, together with the dependency file. After an error none is in place.
+inline Result<Done> commitLast(HeldOutputs& outputs) {
+    if (Depfile* const depfile = Depfile::ofRun()) {
+        if (const Result<Done> written = depfile->write(outputs.files()); !written) {
+            outputs.discard();
+            return written;
+        }
+    }
+    return outputs.commit();
+}
+
 /// Ends a command whose outputs are held. prepare(failure) composes the report: `failure` is null before the outputs
 /// are put in place; if that fails, prepare is called again with the reason, and no output exists. Files that prepare()
 /// writes are outputs, too. Nothing allocates once outputs are in place; std::bad_alloc before that leaves no outputs.
@@ -45,7 +57,8 @@ ExitCode commitAndPrint(HeldOutputs& outputs, const Prepare& prepare) {
         return lineWithoutReport(files);
     };
     std::string failure = lineOf();
-    if (const Result<Done> done = outputs.commit(); !done) {
+    const bool is_done = report.exit_code == ExitCode::done || report.exit_code == ExitCode::findings;
+    if (const Result<Done> done = is_done ? commitLast(outputs) : outputs.commit(); !done) {
         report = prepare(&done.error());
         failure = lineOf();
         // Only a report file is held now; the exit code is already that of an error.
@@ -54,16 +67,33 @@ ExitCode commitAndPrint(HeldOutputs& outputs, const Prepare& prepare) {
     return printResult(report.text, report.to, failure) ? report.exit_code : ExitCode::cannotReadOrWrite;
 }
 
+/// If the file of --report is one of the inputs, makes the result an error and discards the outputs. Only reading a
+/// model shows which files it references.
+template <class Value>
+void rejectReportOfInput(Result<Value>& result, const std::string& path, const InputFiles& read, HeldOutputs& outputs) {
+    if (!result || path.empty() || !read.has(path)) return;
+    result = Error{ErrorCode::invalidOption, "the output " + path + " is an input"};
+    outputs.discard();
+}
+
+/// Returns whether the file of --report is written. It is written after most errors, too, but not if memory ran out, or
+/// if the file is one of the inputs.
+template <class Value>
+bool isReported(const Result<Value>& result, const std::string& path, const InputFiles& read) {
+    const bool has_memory = result || result.error().code != ErrorCode::outOfMemory;
+    return !path.empty() && has_memory && !read.has(path);
+}
+
 /// Processes one of several files: sets outcome.result to make(), composes its report with prepare(), and puts its
 /// outputs in place. If memory runs out or an output cannot be put in place, the result is this error, and there are no
-/// outputs.
+/// outputs. `is_alone`: these are the only outputs of the run.
 template <class Outcome, class Make, class Prepare>
-void makeAndCommit(Outcome& outcome, const Make& make, const Prepare& prepare) {
+void makeAndCommit(Outcome& outcome, bool is_alone, const Make& make, const Prepare& prepare) {
     const Result<Done> done = atBorder([&]() -> Result<Done> {
         HeldOutputs outputs;
         outcome.result = make();
         prepare();
-        return outputs.commit();
+        return is_alone && outcome.result ? commitLast(outputs) : outputs.commit();
     });
     if (!done) outcome.result = done.error();
 }

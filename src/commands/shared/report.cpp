@@ -2,6 +2,11 @@
 // Implements the common parts of the JSON of all commands.
 #include "commands/shared/report.h"
 
+#include <algorithm>
+#include <cstdio>
+#include <string_view>
+
+#include "commands/shared/hidden_characters.h"
 #include "tspace/version.h"
 
 namespace tspace::report {
@@ -32,7 +37,20 @@ Json mapMeshJson(const MapMeshReport& mesh) {
             {"scale", mesh.scale}};
 }
 
-std::string jsonText(const Json& document) { return document.dump(2, ' ', BadUtf8::replace) + "\n"; }
+std::string jsonText(const Json& document) {
+    // JSON allows DEL, C1 control characters and marks of text direction in strings, but a terminal obeys them.
+    const std::string plain = document.dump(2, ' ', BadUtf8::replace) + "\n";
+    std::string text;
+    text.reserve(plain.size());
+    for (std::string_view left = plain; !left.empty();) {
+        const HiddenCharacter hidden = left.front() == '\n' ? HiddenCharacter{} : hiddenCharacter(left);
+        char escaped[8] = {left.front()};
+        if (hidden.length > 0) std::snprintf(escaped, sizeof escaped, "\\u%04x", hidden.code);
+        text += escaped;
+        left.remove_prefix(std::max<std::size_t>(hidden.length, 1));
+    }
+    return text;
+}
 
 std::string counted(std::uint64_t count, const char* noun) {
     std::string plural = noun;

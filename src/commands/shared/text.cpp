@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "commands/shared/hidden_characters.h"
+
 namespace tspace::report {
 namespace {
 
@@ -15,37 +17,20 @@ bool isNumber(const std::string& cell) {
     return !cell.empty() && cell.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// Returns the character that these bytes encode, if it is invisible and changes the text around it: marks and
-/// overrides of text direction, line separators, and zero-width spaces. Otherwise returns 0.
-unsigned invisibleCharacter(unsigned first, unsigned second, unsigned third) {
-    if (first == 0xD8 && second == 0x9C) return 0x061C;
-    if (first != 0xE2 && first != 0xEF) return 0;
-    const unsigned code = (first & 0xFU) << 12 | (second & 0x3FU) << 6 | (third & 0x3FU);
-    const bool is_one = code == 0x200B || code == 0x200E || code == 0x200F || (code >= 0x2028 && code <= 0x202E) ||
-                        (code >= 0x2060 && code <= 0x206F) || code == 0xFEFF;
-    return is_one ? code : 0;
-}
-
 }  // namespace
 
 std::string printable(std::string_view text) {
     std::string clean;
     while (!text.empty()) {
-        const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
-        std::size_t length = 1;
-        if (byte(0) < 0x20 || byte(0) == 0x7F) {
-            clean += ' ';
-        } else if (byte(0) == 0xC2 && byte(1) >= 0x80 && byte(1) < 0xA0) {
-            // C1 control characters, U+0080 to U+009F. U+009B equals ESC [.
-            clean += ' ';
-            length = 2;
-        } else if (const unsigned code = invisibleCharacter(byte(0), byte(1), byte(2)); code != 0) {
-            clean += fmt::format("\\u{:04x}", code);
-            length = code < 0x800 ? 2 : 3;
-        } else {
+        const HiddenCharacter hidden = hiddenCharacter(text);
+        if (hidden.length == 0) {
             clean += text.front();
+        } else if (hidden.code < 0xA0) {
+            clean += ' ';
+        } else {
+            clean += fmt::format("\\u{:04x}", hidden.code);
         }
-        text.remove_prefix(length);
+        text.remove_prefix(std::max<std::size_t>(hidden.length, 1));
     }
     return clean;
 }

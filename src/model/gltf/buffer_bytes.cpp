@@ -17,12 +17,14 @@ class BufferBytes::Later {
     explicit Later(std::shared_ptr<const ByteMaker> maker) : maker_(std::move(maker)) {}
 
     [[nodiscard]] std::span<std::uint8_t> bytes() {
-        std::call_once(once_, [this] {
-            bytes_ = Bytes(maker_->size());
-            maker_->make(0, bytes_);
-            is_made_ = true;
-            maker_.reset();
-        });
+        // An exception that leaves std::call_once() aborts the program if the C library cannot allocate memory to load
+        // its unwinder.
+        const std::lock_guard lock(mutex_);
+        if (is_made_) return bytes_;
+        bytes_ = Bytes(maker_->size());
+        maker_->make(0, bytes_);
+        is_made_ = true;
+        maker_.reset();
         return bytes_;
     }
     /// Returns a piece for writing to a file: bytes not yet generated are generated block by block, and not kept.
@@ -30,7 +32,7 @@ class BufferBytes::Later {
 
   private:
     std::shared_ptr<const ByteMaker> maker_;
-    std::once_flag once_;
+    std::mutex mutex_;
     std::atomic<bool> is_made_ = false;
     Bytes bytes_;
 };

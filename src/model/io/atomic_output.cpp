@@ -149,11 +149,19 @@ Result<Done> HeldOutputs::commit() {
         all_.renameFiles();
         return Done{};
     });
-    if (!done) all_.removeTemporaryFiles();
+    done ? forget() : discard();
+    return done;
+}
+
+void HeldOutputs::discard() noexcept {
+    all_.removeTemporaryFiles();
+    forget();
+}
+
+void HeldOutputs::forget() noexcept {
     all_.files_.clear();
     all_.created_folders_.clear();
     all_.identities_.clear();
-    return done;
 }
 
 }  // namespace tspace

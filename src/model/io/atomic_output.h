@@ -263,9 +263,12 @@ class HeldOutputs {
     [[nodiscard]] std::vector<std::string> files() const { return all_.files(); }
     /// Puts all held files in place. After an error no file is in place, and none is held any more.
     [[nodiscard]] Result<Done> commit();
+    /// Removes all held files.
+    void discard() noexcept;
 
   private:
     friend class AtomicOutput;
+    void forget() noexcept;
     /// Returns the object of this thread, or null.
     static HeldOutputs* ofThread();
     void take(AtomicOutput& output);
