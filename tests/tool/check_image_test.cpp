@@ -142,6 +142,30 @@ TEST_F(CheckImage, ReportsTheContentOfChannelsAndItsConversion) {
     EXPECT_EQ(codes(check("bc5.dds")), Codes{"note normalMapTwoChannels"}) << "that is what BC5 is for";
 }
 
+TEST_F(CheckImage, RemediesOfInvertedGreenConvertTheChannelsToo) {
+    const RgbImage down = normalMapOf(kMapSide, bumps, true);
+    std::vector<float> x;
+    for (std::size_t i = 0; i < down.rgb.size(); i += 3) x.push_back(static_cast<float>(down.rgb[i]) / 255.0F);
+    folder_.write("alpha.png", pngWithAlpha(changed(down, [](std::uint8_t* t) { t[0] = t[2] = 255; }), x));
+    folder_.write("bgr.png", pngFile(changed(down, [](std::uint8_t* t) { std::swap(t[0], t[2]); })));
+    folder_.write("z.png",
+                  pngFile(changed(down, [](std::uint8_t* t) { t[2] = static_cast<std::uint8_t>(255 - t[2]); })));
+    for (const std::string name : {"alpha.png", "bgr.png", "z.png"}) {
+        const Json report = check(name);
+        EXPECT_EQ(codes(report), (Codes{"warning normalMapChannels", "warning greenFlipped"})) << name;
+        for (const Json& finding : report["findings"]) {
+            std::string rest = finding["remedy"];
+            int commands = 0;
+            for (std::size_t at; (at = rest.find("tspace ")) != std::string::npos; ++commands) {
+                rest.erase(0, at + 7);
+                ASSERT_EQ(runTool(folder_, rest.substr(0, rest.find(". "))).exit_code, 0) << rest;
+                EXPECT_EQ(codes(check("OUT.png")), Codes{}) << finding;
+            }
+            EXPECT_GT(commands, 0) << finding;
+        }
+    }
+}
+
 TEST_F(CheckImage, ReportsImagesThatAreNotNormalMaps) {
     RgbImage height{kMapSide, kMapSide, {}}, around{kMapSide, kMapSide, {}};
     for (std::uint32_t i = 0; i < kMapSide * kMapSide; ++i) {
@@ -153,6 +177,18 @@ TEST_F(CheckImage, ReportsImagesThatAreNotNormalMaps) {
     }
     expectFound("height.png", height, "height", {"warning normalMapIsHeight"});
     expectFound("object.png", around, "objectSpace", {"warning normalMapInObjectSpace"});
+    // Flow and anisotropy maps: unit vectors in the surface.
+    for (const std::uint8_t blue : {0, 128, 255}) {
+        RgbImage flow{kMapSide, kMapSide, {}};
+        for (std::uint32_t i = 0; i < kMapSide * kMapSide; ++i) {
+            const double a = 9.0 * (i % kMapSide) / kMapSide + std::sin(7.0 * (i / kMapSide) / kMapSide);
+            for (const double part : {std::cos(a), std::sin(a)})
+                flow.rgb.push_back(static_cast<std::uint8_t>(127.5 * part + 128));
+            flow.rgb.push_back(blue);
+        }
+        expectFound("flow.png", flow, "picture", {"warning normalMapIsPicture"});
+        EXPECT_NE(check("flow.png").dump().find("flow or anisotropy map"), std::string::npos);
+    }
     expectFound("flat.png", changed(map_, [](std::uint8_t* t) { t[0] = t[1] = 128, t[2] = 255; }), "constant",
                 {"note normalMapConstant"});
     expectFound("white.png", changed(map_, [](std::uint8_t* t) { t[0] = t[1] = t[2] = 255; }), "constant",

@@ -341,14 +341,6 @@ Finding flipped(const std::string& name, const GreenTest& test) {
                            countText(blocks, "blocks") + " of 16 x 16 pixels with relief");
 }
 
-/// Returns a remedy for an image without a model, to which generate does not apply.
-Remedy loneGreenRemedy(const NamedImage& image) {
-    return {
-        "If the map was made for DirectX and is read as glTF or OpenGL, invert green: {}. If bumps look like dents "
-        "afterwards, red was inverted: {}. The map alone does not show which of the two cases it is.",
-        {imageCommand("flip-green", image), withOption(convertCommand(image), "flip-red")}};
-}
-
 Finding mixed(const std::string& name, const GreenTest& test) {
     const Tally blocks{.count = test.down_block_count, .total = test.block_count};
     return makeFinding(
@@ -483,7 +475,7 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         if (has_own_green && isDown(map) && !isDeclared(map)) {
             findings.push_back(flipped(name, *map.test));
             const NamedImage named = namedImage(scene, map);
-            if (named.is_alone) setRemedy(findings.back(), loneGreenRemedy(named));
+            if (named.is_alone) setRemedy(findings.back(), loneGreenRemedy(named, map.analysis));
         }
         if (map.test->verdict == GreenVerdict::mixed) findings.push_back(mixed(name, *map.test));
         describeReading(scene, map, name, findings);

@@ -87,6 +87,7 @@ class MapAnalyzer {
     }
 
     [[nodiscard]] MapAnalysis analysis() const {
+        if (const auto found = directionsInSurface()) return *found;
         if (const auto found = xInAlpha()) return *found;
         if (const auto found = lostX()) return *found;
         if (isGrayTexels(texels_)) return made(MapContent::height, {}, 1);
@@ -105,6 +106,20 @@ class MapAnalyzer {
         const std::uint64_t total = texels_.size();
         const auto count = static_cast<std::uint64_t>(share * static_cast<double>(total) + 0.5);
         return {.content = content, .layout = layout, .count = count, .total = total};
+    }
+
+    /// Detects directions in the surface, as in flow and anisotropy maps: blue is constant, and (red, green) has length
+    /// 1 nearly everywhere, which in a normal map would be a cliff.
+    [[nodiscard]] std::optional<MapAnalysis> directionsInSurface() const {
+        constexpr double kNearOne = 0.1, kMinShare = 0.9;
+        if (channels_[2].deviation > kConstant || channels_[0].deviation <= kConstant) return {};
+        const double share = texelShare(texels_, [](const TexelBytes& texel) {
+            return std::fabs(std::sqrt(squareOf(texel, 0, 1)) - 1) < kNearOne;
+        });
+        if (share < kMinShare) return {};
+        MapAnalysis analysis = made(MapContent::picture, {}, share);
+        analysis.holds_directions = true;
+        return analysis;
     }
 
     [[nodiscard]] bool mayBeXInAlpha() const {

@@ -112,6 +112,11 @@ std::string messageOf(const NamedImage& image, const MapAnalysis& analysis) {
                        " cannot be used as a normal map: only green varies, like y of a map with x in alpha (DXT5nm), "
                        "but the alpha channel is missing";
             }
+            if (analysis.holds_directions) {
+                return name +
+                       " is not a normal map: red and green are directions in the surface, with length 1 and without "
+                       "z, as in a flow or anisotropy map";
+            }
             return name +
                    " is a color image, not a normal map: its texels are not unit vectors around a direction out of the "
                    "surface";
@@ -188,6 +193,8 @@ Remedy remedyOf(const NamedImage& image, const MapAnalysis& analysis, bool green
     const RemedyCommand convert = convertCommand(image);
     if (analysis.is_x_lost)
         return {"Export the map again from its source with its alpha channel, because x cannot be restored."};
+    if (analysis.holds_directions)
+        return {"Use the intended normal map instead, and assign this image to the effect for which it was made."};
     if (analysis.content == MapContent::picture) return usualRemedy(FindingCode::normalMapIsPicture);
     if (analysis.content == MapContent::hemiOctahedral) {
         return {
@@ -208,7 +215,8 @@ Remedy remedyOf(const NamedImage& image, const MapAnalysis& analysis, bool green
     }
     MapLayout layout = analysis.layout;
     const bool has_own_green = layout.y == MapLayout{}.y && layout.curve == MapCurve::none;
-    if (green_is_down && !has_own_green) layout.y.is_inverted = !layout.y.is_inverted;
+    const bool is_exchanged = analysis.content == MapContent::exchanged;
+    if (green_is_down && (!has_own_green || is_exchanged)) layout.y.is_inverted = !layout.y.is_inverted;
     if (isRotated(analysis, green_is_down)) {
         const MapLayout left = layout.x.is_inverted ? layout : invertedRelief(layout);
         return {
@@ -216,7 +224,7 @@ Remedy remedyOf(const NamedImage& image, const MapAnalysis& analysis, bool green
             "do not show which of the two cases it is; with the wrong one, bumps look like dents.",
             {withLayout(convert, left), withLayout(convert, invertedRelief(left))}};
     }
-    if ((analysis.content == MapContent::exchanged && !analysis.is_declared) || (green_is_down && !has_own_green)) {
+    if ((is_exchanged && !analysis.is_declared) || (green_is_down && !has_own_green)) {
         // Slopes cannot distinguish a height field from its negative, so both layouts are offered.
         return inModelOrAlone(image, green_is_down, withLayout(convert, layout),
                               ". Slopes do not distinguish bumps from dents; if bumps look like dents afterwards, "
@@ -238,6 +246,16 @@ RemedyCommand imageCommand(const char* verb, const NamedImage& image) {
 }
 
 RemedyCommand convertCommand(const NamedImage& image) { return imageCommand("convert-map", image); }
+
+Remedy loneGreenRemedy(const NamedImage& image, const MapAnalysis& analysis) {
+    const RemedyCommand convert = withLayout(convertCommand(image), analysis.layout);
+    const bool is_normals = analysis.content == MapContent::normals;
+    return {
+        "If the map was made for DirectX and is read as glTF or OpenGL, invert green: {}. If bumps look like dents "
+        "afterwards, red was inverted: {}. The map alone does not show which of the two cases it is.",
+        {is_normals ? imageCommand("flip-green", image) : withOption(convert, "flip-green"),
+         withOption(convert, "flip-red")}};
+}
 
 std::optional<Finding> contentFinding(const NamedImage& image, const MapAnalysis& analysis, bool green_is_down) {
     if (analysis.content == MapContent::normals) return {};

@@ -83,6 +83,10 @@ struct NamedImage {
 RemedyCommand imageCommand(const char* verb, const NamedImage& image);
 RemedyCommand convertCommand(const NamedImage& image);
 
+/// Returns the remedy of greenFlipped for an image without a model, to which generate does not apply. Its commands also
+/// convert the channels.
+Remedy loneGreenRemedy(const NamedImage& image, const MapAnalysis& analysis);
+
 /// Returns the finding on the content of a map, or nothing for normals. `green_is_down`: the channel that contains y is
 /// also inverted.
 std::optional<Finding> contentFinding(const NamedImage& image, const MapAnalysis& analysis, bool green_is_down);
