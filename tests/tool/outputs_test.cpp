@@ -96,9 +96,8 @@ TEST(Outputs, AReportNeverReplacesAnInputOfTheBake) {
           std::string("plain.glb --high folded.obj --report folded.mtl"),
           "plain.glb --high made.glb --cage separate.gltf --report " + bin}) {
         const ToolRun run = runTool(folder, "bake " + command + " -q --size 16 -o n.png");
-        EXPECT_EQ(run.exit_code, 4) << command << run.err;
-        EXPECT_NE(run.err.find("it is an input"), std::string::npos) << run.err;
-        fs::remove(folder.path("n.png"));
+        EXPECT_EQ(run.exit_code, 2) << command << run.err;
+        EXPECT_NE(run.err.find("is an input"), std::string::npos) << run.err;
         EXPECT_TRUE(contentsOf(folder) == before) << command;
     }
 }

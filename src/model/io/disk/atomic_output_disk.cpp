@@ -244,7 +244,11 @@ struct RunFile {
     std::set<std::uint64_t> readers = {};
     std::uint64_t owner = 0;  ///< the call that wrote the file, or left it unchanged
     bool is_written = false;
+
+    [[nodiscard]] bool isReadByOther(std::uint64_t call) const { return readers.size() > readers.count(call); }
 };
+
+constexpr const char* kIsInputOfOther = "it is an input of another model in this run; choose another output folder";
 
 struct RunFiles {
     std::mutex mutex = {};
@@ -465,14 +469,13 @@ void AtomicOutput::leaveSharedFiles() {
         bool is_owned_by_other = false, is_read_by_other = false;
         inRun(file.target, [&](const RunFile& known) {
             is_owned_by_other = known.owner != 0 && known.owner != file.call;
-            is_read_by_other = known.readers.size() > known.readers.count(file.call);
+            is_read_by_other = known.isReadByOther(file.call);
         });
         if (kindOf(file.target) == PathKind::nothing || !(file.is_shared || is_owned_by_other || is_read_by_other))
             continue;
         if (!hasBytes(file.target, readFile(file.temporary)))
             failToWrite(file.target,
-                        is_read_by_other ? "it is an input of another model in this run; choose another "
-                                           "output folder"
+                        is_read_by_other ? kIsInputOfOther
                         : is_owned_by_other
                             ? "this run has already written a different file with this name"
                             : "another program has created a different file with this name during the run");
@@ -519,6 +522,27 @@ void AtomicOutput::renameFiles() {
             backups[i].name = temporaryName(files_[i].target, kBackupEnding);
     }
     for (const Path& folder : created_folders_) addFolder(folderOf(folder));
+    // Before the files change, other calls must not begin to read them, nor have begun since they were checked.
+    const auto setWritten = [&](bool is_written) {
+        for (std::size_t i = 0; i < files_.size(); ++i) {
+            if (!files_[i].is_made || in_run[i] == nullptr) continue;
+            in_run[i]->owner = is_written ? files_[i].call : 0;
+            in_run[i]->is_written = is_written;
+        }
+    };
+    const auto claim = [&] {
+        const std::lock_guard run_lock(runFiles().mutex);
+        for (std::size_t i = 0; i < files_.size(); ++i) {
+            const bool is_read = in_run[i] != nullptr && in_run[i]->isReadByOther(files_[i].call);
+            if (files_[i].is_made && is_read && kindOf(files_[i].target) != PathKind::nothing) return false;
+        }
+        setWritten(true);
+        return true;
+    };
+    if (!claim()) {
+        leaveSharedFiles();
+        if (!claim()) failToWrite(files_.front().target, kIsInputOfOther);
+    }
     int failure = 0;
     std::size_t failed = files_.size();
     {
@@ -556,16 +580,12 @@ void AtomicOutput::renameFiles() {
             work.noteCommit();
         }
     }
-    if (failure != 0) failToWrite(files_[failed].target, std::strerror(failure));
-    committed_ = true;
-    {
+    if (failure != 0) {
         const std::lock_guard run_lock(runFiles().mutex);
-        for (std::size_t i = 0; i < files_.size(); ++i) {
-            if (in_run[i] == nullptr) continue;
-            in_run[i]->owner = files_[i].call;
-            in_run[i]->is_written = true;
-        }
+        setWritten(false);
+        failToWrite(files_[failed].target, std::strerror(failure));
     }
+    committed_ = true;
     lock.unlock();
     for (const Path& folder : folders) syncFolder(folder);
 }
