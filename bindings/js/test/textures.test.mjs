@@ -142,7 +142,7 @@ describe("compressMap", () => {
     refuses("invalidOption", /options.quallity is unknown/, () => compressMap(image, { quallity: "best" }));
     for (const rgba of [new Uint8Array(256).fill(255), new Uint8Array(256), new Float32Array(256).fill(NaN)]) {
       const { report } = compressMap({ ...image, rgba });
-      assert.match(report.warnings.join(), /not unit vectors/);
+      assert.match(report.warnings.join(), Number.isNaN(rgba[0]) ? /64 texels of the image are NaN or infinite/ : /not unit vectors/);
       assert.ok(Number.isFinite(report.meanErrorDeg));
     }
   });
