@@ -15,13 +15,11 @@ namespace {
 
 constexpr const char* kDoubt =
     "; but if the two channels are read as x and y, they are not the slopes of any height field, so they may use "
-    "another "
-    "encoding";
+    "another encoding";
 
 constexpr const char* kOctahedral =
     "; but the two channels fit the slopes of a height field better as octahedral encoding, x and y of (x, y, z) / "
-    "(|x| "
-    "+ |y| + |z|), so they may store this encoding";
+    "(|x| + |y| + |z|), so they may store this encoding";
 
 /// Returns the text that a message on two channels adds if x and y are only one of several interpretations.
 const char* doubtOf(const MapAnalysis& analysis) {

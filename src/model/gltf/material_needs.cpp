@@ -156,33 +156,33 @@ const Json* vrmNormalMap(const Document& document, std::size_t material) {
     return textures == nullptr ? nullptr : findMember(*textures, "_BumpMap");
 }
 
-/// Returns whether an object contains, at any depth, a texture reference whose name indicates a normal or bump map.
-bool namesNormalMap(const Json& object) {
-    if (object.is_array()) return std::any_of(object.begin(), object.end(), namesNormalMap);
-    if (!object.is_object()) return false;
-    for (const auto& [key, value] : object.items()) {
-        const std::string name = lowerAscii(key);
-        const bool is_map = name.find("normal") != std::string::npos || name.find("bump") != std::string::npos;
-        if ((is_map && findMember(value, "index") != nullptr) || namesNormalMap(value)) return true;
-    }
-    return false;
-}
+bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
-/// Calls visit(key, texture, place) for each texture reference in an object, at any depth, whose name contains "normal".
+/// Calls visit(key, texture, place) for each texture reference in an object, at any depth. If visit returns true, the
+/// members of the reference are not visited.
 template <class Visit>
-void forNormalTextures(const Json& object, const std::string& place, const Visit& visit) {
+void forTextures(const Json& object, const std::string& place, const Visit& visit) {
     if (object.is_array()) {
-        for (std::size_t i = 0; i < object.size(); ++i) forNormalTextures(object[i], join(place, i), visit);
+        for (std::size_t i = 0; i < object.size(); ++i) forTextures(object[i], join(place, i), visit);
         return;
     }
     if (!object.is_object()) return;
     for (const auto& [key, value] : object.items()) {
         const std::string own_place = join(place, key);
-        if (lowerAscii(key).find("normal") != std::string::npos && findMember(value, "index") != nullptr)
-            visit(key, value, own_place);
-        else
-            forNormalTextures(value, own_place, visit);
+        if (findMember(value, "index") != nullptr && visit(key, value, own_place)) continue;
+        forTextures(value, own_place, visit);
     }
+}
+
+/// Returns whether an object contains, at any depth, a texture reference whose name indicates a normal or bump map.
+bool namesNormalMap(const Json& object) {
+    bool is_found = false;
+    forTextures(object, {}, [&](const std::string& key, const Json&, const std::string&) {
+        const std::string name = lowerAscii(key);
+        is_found = is_found || contains(name, "normal") || contains(name, "bump");
+        return is_found;
+    });
+    return is_found;
 }
 
 std::vector<std::string> extensionsOf(const Json& object) {
@@ -245,11 +245,13 @@ class MaterialUses {
         for (const std::string& name : extensionsOf(material)) {
             if (isKnownExtension(name)) continue;
             const std::string place = join(join(join("/materials", material_), "extensions"), name);
-            forNormalTextures(*findExtension(material, name.c_str()), place,
-                              [&](const std::string& key, const Json& texture, const std::string& own_place) {
-                                  const std::string needed_by = key + " of the material extension " + name;
-                                  if (tryFile([&] { addReference(texture, own_place, needed_by); })) uses_.pop_back();
-                              });
+            forTextures(*findExtension(material, name.c_str()), place,
+                        [&](const std::string& key, const Json& texture, const std::string& own_place) {
+                            if (!contains(lowerAscii(key), "normal")) return false;
+                            const std::string needed_by = key + " of the material extension " + name;
+                            if (tryFile([&] { addReference(texture, own_place, needed_by); })) uses_.pop_back();
+                            return true;
+                        });
         }
     }
 
