@@ -156,7 +156,7 @@ std::vector<Figure> makeTangentFigures() {
         shadingFigure("loops", 128),
         vertexFigure("regular", 32),
         vertexFigure(kScattered, 32),
-        spreadFigure("vertex_p95_scattered_32", "95 of 100 below", &Spread::p95),
+        spreadFigure("vertex_p95_scattered_32", "95th percentile", &Spread::p95),
         spreadFigure("vertex_max_scattered_32", "worst", &Spread::max),
         bitangentFigure("vertex_border_scattered_32", "vertex 32x32 scattered, border", &Record::border),
         vertexFigure("loops", 32),
