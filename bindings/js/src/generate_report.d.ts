@@ -204,7 +204,7 @@ export interface GeneratedPrimitive {
   normals: GeneratedNormals;
   /** Counts of computed tangents; zeros if nothing was computed. */
   tangents: GeneratedTangents;
-  /** Corners that were repaired. */
+  /** Counts of repaired corners. */
   sanitize: MendedTangents;
 }
 
@@ -265,7 +265,7 @@ export interface GeneratedTangents {
   defaultCorners: number;
   /** Corners whose tangent was NaN or infinite before the repair. */
   notFiniteCorners: number;
-  /** The last step of the reference was skipped, because it would have taken quadratic time (details). */
+  /** A step of the reference was skipped, because it would have taken quadratic time (details). */
   referenceOrderAbandoned: boolean;
 }
 

@@ -324,7 +324,7 @@ export interface Explanation {
   meanDeg: number;
   /** Corners whose sign is that of glTF. */
   gltfSigns: number;
-  /** Corners whose sign is the opposite. */
+  /** Corners whose sign is the opposite of that of glTF. */
   invertedSigns: number;
   /** The signs of most corners. */
   signs: "gltf" | "inverted" | "mixed" | "none";
@@ -347,7 +347,7 @@ export interface IdentifiedPrimitive {
   explanations: Explanation[];
 }
 
-/** Differences between the frames of two models: diff. */
+/** Report of "tspace diff": differences between the frames of two models. */
 export interface DiffReport {
   schema: "tspace.diff/1";
   /** Version of the tool. */

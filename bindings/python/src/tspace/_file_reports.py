@@ -335,7 +335,7 @@ class Explanation(Report):
     mean_deg: float
     #: Corners whose sign is that of glTF.
     gltf_signs: int
-    #: Corners whose sign is the opposite.
+    #: Corners whose sign is the opposite of that of glTF.
     inverted_signs: int
     #: The signs of most corners.
     signs: str
@@ -359,7 +359,7 @@ class IdentifiedPrimitive(Report):
 
 
 class DiffReport(Report):
-    """Differences between the frames of two models: diff."""
+    """Report of "tspace diff": differences between the frames of two models."""
 
     schema: str
     #: Version of the tool.
@@ -483,7 +483,7 @@ class DiffedSide(Report):
 
 
 class BakeReport(Report):
-    """Maps that were baked."""
+    """Report of "tspace bake": baked maps."""
 
     schema: str
     #: Version of the tool.
@@ -648,7 +648,7 @@ class BakedId(Report):
 
 
 class FinishReport(Report):
-    """A finished model: "tspace finish" (finish)."""
+    """Report of "tspace finish": a finished model."""
 
     schema: str
     #: Version of the tool.

@@ -211,7 +211,7 @@ class GeneratedPrimitive(Report):
     normals: GeneratedNormals
     #: Counts of computed tangents; zeros if nothing was computed.
     tangents: GeneratedTangents
-    #: Corners that were repaired.
+    #: Counts of repaired corners.
     sanitize: MendedTangents
 
 
@@ -272,7 +272,7 @@ class GeneratedTangents(Report):
     default_corners: int
     #: Corners whose tangent was NaN or infinite before the repair.
     not_finite_corners: int
-    #: The last step of the reference was skipped, because it would have taken quadratic time (details).
+    #: A step of the reference was skipped, because it would have taken quadratic time (details).
     reference_order_abandoned: bool
 
 

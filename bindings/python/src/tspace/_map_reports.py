@@ -9,7 +9,7 @@ from ._report import Report
 
 
 class FlipGreenReport(Report):
-    """An image with inverted green: flip-green."""
+    """Report of "tspace flip-green": an image with inverted green."""
 
     schema: str
     #: Version of the tool.
@@ -41,7 +41,7 @@ class FlipGreenReport(Report):
 
 
 class ConvertMapReport(Report):
-    """A converted normal map."""
+    """Report of "tspace convert-map": a converted normal map."""
 
     schema: str
     #: Version of the tool.
@@ -64,9 +64,9 @@ class ConvertMapReport(Report):
     bits_before: int
     #: Bits per channel of the output.
     bits: int
-    #: The part that was used of the model that the map was made for; null without a model.
+    #: The primitives that were used of the model for which the map was made; null without a model.
     from_: Optional[MapMesh]
-    #: The part of the model "--to-mesh" that was used; null if it is the same file as "--mesh".
+    #: The primitives of the model "--to-mesh" that were used; null if it is the same file as "--mesh".
     to: Optional[MapMesh]
     #: Texels inside triangles or their padding.
     converted: int
@@ -113,12 +113,12 @@ class MapMesh(Report):
     materials: List[str]
     #: Some primitives had no tangents, which were computed.
     tangents_made: bool
-    #: Factor that its materials apply to x and y of the map (glTF's "normalTexture.scale").
+    #: Factor that the materials apply to x and y of the map (glTF's "normalTexture.scale").
     scale: float
 
 
 class HeightToNormalReport(Report):
-    """A height map that became a normal map."""
+    """Report of "tspace height-to-normal": the normal map that was made from a height map."""
 
     schema: str
     #: Version of the tool.
@@ -141,7 +141,7 @@ class HeightToNormalReport(Report):
     bits_before: int
     #: Bits per channel of the output, 8 or 16.
     bits: int
-    #: The part of the model that was used; null without a model.
+    #: The primitives of the model that were used; null without a model.
     mesh: Optional[MapMesh]
     #: Texels whose size was taken from the triangle that shows them.
     texels_on_mesh: int
@@ -159,7 +159,7 @@ class HeightToNormalReport(Report):
 
 
 class CompressMapReport(Report):
-    """A normal map that became a texture."""
+    """Report of "tspace compress-map": the texture that was made from a normal map (compressing)."""
 
     schema: str
     #: Version of the tool.
@@ -180,7 +180,7 @@ class CompressMapReport(Report):
     height: int
     #: Bits per channel of the input.
     bits_before: int
-    #: Format of the output: BC5, EAC RG11 signed, ASTC 4x4, PNG of 16 bits.
+    #: Format of the output, such as "BC5", "EAC RG11 signed", "ASTC 4x4" or "PNG of 16 bits".
     format: str
     #: Number of mip levels in the output.
     levels: int
@@ -188,11 +188,11 @@ class CompressMapReport(Report):
     output_bytes: int
     #: Size of the roughness texture; 0: not requested.
     roughness_bytes: int
-    #: Error of the first level, filtered: angle between the three-channel map and the texture.
+    #: Mean angle between the filtered directions of the three-channel map and of the texture, in the first level.
     mean_error_deg: float
-    #: 99th percentile of the error of the first level.
+    #: 99th percentile of these angles.
     p99_error_deg: float
-    #: Maximum error of the first level.
+    #: Largest of these angles.
     max_error_deg: float
     #: X coordinate of the maximum, in texels from the left.
     max_error_x: float
