@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* Computes normals and tangents of a pose with Vulkan. A plan is made once, written as words (tspace_planBuffers) and uploaded;
- * the compute shader shaders/tspace_evaluate.glsl then computes the frames of a bent sheet. This program reads them back only
- * to compare them with the frames of the library; a renderer would bind the two buffers as vertex buffers.
+/* Computes normals and tangents of a pose with Vulkan. A plan is made once, written as words (tspace_planBuffers) and
+ * uploaded; the compute shader shaders/tspace_evaluate.glsl then computes the frames of a bent sheet. This program
+ * reads them back only to compare them with the frames of the library; a renderer would bind the two buffers as vertex
+ * buffers.
  *
  *   glslangValidator -V -S comp -o evaluate.spv shaders/tspace_evaluate.glsl
  *   cc examples/gpu_evaluate.c -ltspace -lvulkan -lm -o gpu_evaluate && ./gpu_evaluate evaluate.spv */

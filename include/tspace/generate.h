@@ -141,8 +141,8 @@ struct GenerateOptions {
         /// ExistingTangents::repair, TextureTransform::ignore or flip_green (invalidOption).
         bool convert = false;
         /// Read the pixels of normal maps if ExistingTangents::repair needs them. false: inverted signs are kept,
-        /// because the green channel of the maps may also point down. Cannot be combined with flip_green, mend or convert
-        /// (invalidOption).
+        /// because the green channel of the maps may also point down. Cannot be combined with flip_green, mend or
+        /// convert (invalidOption).
         bool read = true;
     };
 

@@ -57,7 +57,8 @@ enum class Ngons : std::uint32_t {
 enum class OutputDomain : std::uint32_t {
     corner = 0,
     /// One entry per vertex of the mesh: for `lengyel` and `basis`, whose results are equal at all corners of a vertex.
-    /// Each entry is bit-identical to the result at every corner of the vertex. Vertices that no used face refers to get 0.
+    /// Each entry is bit-identical to the result at every corner of the vertex. Vertices that no used face refers to
+    /// get 0.
     vertex = 1,
 };
 

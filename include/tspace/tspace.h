@@ -10,8 +10,8 @@
  *   otherwise it is written in either case (code TSPACE_OK and an empty message after success).
  * - Structs that start with `struct_size` are initialized with TSPACE_INIT, which sets the size and every default;
  *   other fields are set to zero. Fields are only added at the end, and the size tells the library which fields a
- *   program has: a program compiled with an older header works with a newer library, and gets the defaults of newer fields. A
- *   size that this version does not support causes TSPACE_ERROR_INVALID_OPTION.
+ *   program has: a program compiled with an older header works with a newer library, and gets the defaults of newer
+ *   fields. A size that this version does not support causes TSPACE_ERROR_INVALID_OPTION.
  * - Languages without the macro initialize options with tspace_init..., and all other sized structs with zeros and the
  *   size. Zero-filled options differ from the defaults: they are rejected if they appear uninitialized, as documented
  *   at each of these functions.

@@ -12,8 +12,8 @@
  *
  * Reports are the JSON that the tool prints with --json (docs/reference/json.md), here always for one file. A report
  * has `exitCode` and `ok` as in the tool: a check that finds errors succeeds, and its report has exit code 1. `report`
- * may be null. Free it with tspace_destroyBytes; it is empty after an error. Output files are moved to their final paths
- * after the report is complete, so after an error no output file exists.
+ * may be null. Free it with tspace_destroyBytes; it is empty after an error. Output files are moved to their final
+ * paths after the report is complete, so after an error no output file exists.
  *
  * Functions on files take paths, and read all formats that generate.h lists; functions on bytes do the same in memory.
  */

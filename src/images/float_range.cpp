@@ -73,8 +73,8 @@ class RangeEvidence {
     double sum_x_ = 0, sum_y_ = 0, sum_z_ = 0;
 };
 
-/// Fills texels that are not finite with the means of their finite neighbors, ring by ring from the border of each hole.
-/// If no texel is finite, all become gray, or flat in a map of vectors.
+/// Fills texels that are not finite with the means of their finite neighbors, ring by ring from the border of each
+/// hole. If no texel is finite, all become gray, or flat in a map of vectors.
 class HoleFilling {
   public:
     HoleFilling(FloatImage& image, std::vector<bool> is_hole) : image_(image), is_hole_(std::move(is_hole)) {}

@@ -2,7 +2,7 @@
 // Loaded into a program before the C library (LD_PRELOAD): makes calls fail, or sends a signal during a call.
 //
 // TSPACE_FAIL_CALL=K       the Kth call of the functions below fails, as on a faulty disk
-// TSPACE_FAIL_MALLOC=K     the Kth allocation of the C library fails, and all further ones if TSPACE_FAIL_MALLOC_AFTER=1
+// TSPACE_FAIL_MALLOC=K     the Kth allocation of the C library fails; TSPACE_FAIL_MALLOC_AFTER=1: further ones fail too
 // TSPACE_NO_RESERVE=1      the C++ library does not get its emergency memory for exceptions
 // TSPACE_FAIL_MARK=FILE    a program that has reached this call writes its number of allocations to FILE when it ends
 // TSPACE_SIGNAL_AT_SYNC=N  signal N is raised when the first file is synced to disk

@@ -88,8 +88,8 @@ TEST(MorphGltf, GivesDeltasToTargetsThatMoveTheSurfaceOnly) {
     EXPECT_EQ(outcome.report.primitives[0].morph_target_count, 4u);
     EXPECT_EQ(outcome.report.primitives[0].morph_deltas_computed, 3u);
     EXPECT_EQ(outcome.report.primitives[0].vertices_after, 30u);
-    // Points move by an amount that depends only on y. Points with equal v therefore stay in line, and T, which is along
-    // this line, does not change.
+    // Points move by an amount that depends only on y. Points with equal v therefore stay in line, and T, which is
+    // along this line, does not change.
     for (const Vec3& offset : offsetsOf(outcome, 0, "TANGENT")) EXPECT_LT(lengthOf(offset), 1e-6);
 }
 

@@ -8,7 +8,8 @@
 
 namespace tspace::tool {
 
-/// Returns whether the name has the extension of a model that some build of tspace reads, with tspace-import or without.
+/// Returns whether the name has the extension of a model that some build of tspace reads, with tspace-import or
+/// without.
 bool isModelName(const std::string& name);
 
 /// Returns the error message if an operand or option of the command names a file of a wrong kind; otherwise an empty

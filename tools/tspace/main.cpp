@@ -38,9 +38,9 @@ void keepFreedMemory() {
 #endif
 }
 
-/// Makes the allocator return freed blocks of 64 KB and more to the system, and use one heap for all threads. It is used
-/// for commands that keep small results between large blocks: these results would fragment the heaps, and files with
-/// many primitives would need a multiple of the memory.
+/// Makes the allocator return freed blocks of 64 KB and more to the system, and use one heap for all threads. It is
+/// used for commands that keep small results between large blocks: these results would fragment the heaps, and files
+/// with many primitives would need a multiple of the memory.
 void returnFreedMemory() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 64 << 10);

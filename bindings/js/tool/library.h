@@ -18,6 +18,7 @@ struct TspaceLandingPad {
     };
     int selector;
 };
-[[gnu::weak, gnu::visibility("hidden")]] thread_local TspaceLandingPad __wasm_lpad_context = {.number = 0, .table = "", .selector = 0};
+[[gnu::weak, gnu::visibility("hidden")]] thread_local TspaceLandingPad __wasm_lpad_context = {
+    .number = 0, .table = "", .selector = 0};
 
 }  // extern "C"

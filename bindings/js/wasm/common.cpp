@@ -36,8 +36,7 @@ void setMesh(const float* positions, std::size_t position_count, const float* no
     current_mesh.normals = vec3Span(normals, normal_count);
     current_mesh.uvs = vec2Span(uvs, uv_count);
     if (indices != nullptr) current_mesh.indices = {indices, index_count, IndexType::u32};
-    if (normal_indices != nullptr)
-        current_mesh.normal_indices = {normal_indices, normal_index_count, IndexType::u32};
+    if (normal_indices != nullptr) current_mesh.normal_indices = {normal_indices, normal_index_count, IndexType::u32};
     if (uv_indices != nullptr) current_mesh.uv_indices = {uv_indices, uv_index_count, IndexType::u32};
     if (face_sizes != nullptr) current_mesh.face_sizes = {face_sizes, face_count};
 }
@@ -65,8 +64,7 @@ std::uint32_t split(const std::uint32_t* indices, std::size_t vertex_count, std:
         const AttributeWords& from = attributes[i];
         list[i] = {from.data, from.component_count * sizeof(float), from.component_count, from.tolerance};
     }
-    const IndexView view =
-        indices == nullptr ? IndexView() : IndexView(indices, corner_count, IndexType::u32);
+    const IndexView view = indices == nullptr ? IndexView() : IndexView(indices, corner_count, IndexType::u32);
     auto made = splitVertices(view, vertex_count, corner_count, {list, attribute_count});
     if (!made) return codeOf(made);
     const std::vector<std::uint32_t>* const lists[] = {&made->indices, &made->source_vertices, &made->source_corners};

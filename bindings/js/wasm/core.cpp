@@ -32,10 +32,10 @@ extern "C" {
 /// `out`: receives four floats per corner; `has_tangent`: receives a byte per corner, or null.
 TSPACE_JS_EXPORT(generateTangents)
 std::uint32_t generate(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
-                       std::uint32_t convention, std::uint32_t frame, std::uint32_t refine,
-                       bool normalize_normals, float* out, std::uint8_t* has_tangent) {
-    const auto options = tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine,
-                                        normalize_normals);
+                       std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, bool normalize_normals,
+                       float* out, std::uint8_t* has_tangent) {
+    const auto options =
+        tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine, normalize_normals);
     auto result = generateTangents(mesh(), options, outputOf(out, has_tangent, mesh().cornerCount()));
     if (result) keep(*result);
     return codeOf(result);
@@ -44,10 +44,10 @@ std::uint32_t generate(std::uint32_t method, float threshold_deg, std::uint32_t 
 /// `plan`: receives the plan, to be destroyed with destroyPlan.
 TSPACE_JS_EXPORT(makePlan)
 std::uint32_t makePlan(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
-                       std::uint32_t convention, std::uint32_t frame, std::uint32_t refine,
-                       bool normalize_normals, TangentPlan** plan) {
-    const auto options = tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine,
-                                        normalize_normals);
+                       std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, bool normalize_normals,
+                       TangentPlan** plan) {
+    const auto options =
+        tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine, normalize_normals);
     auto result = planTangents(mesh(), options);
     if (result) *plan = new TangentPlan(*std::move(result));
     return codeOf(result);
@@ -72,7 +72,8 @@ std::uint32_t buffers(const TangentPlan* plan, const std::uint32_t* indices, std
                       std::uint32_t weighting, float crease_angle_deg, const std::uint32_t* groups,
                       std::size_t group_count, bool groups_are_masks, bool weld_positions, std::uint32_t convention,
                       std::uint32_t refine, float denoise, float weld_distance, std::uint32_t* result) {
-    PlanBufferOptions options{.indices = {indices, index_count}, .source_corners = {source_corners, source_corner_count}};
+    PlanBufferOptions options{.indices = {indices, index_count},
+                              .source_corners = {source_corners, source_corner_count}};
     if (makes_normals) options.mesh = mesh();
     options.normals = normalOptions(weighting, crease_angle_deg, groups, group_count, groups_are_masks, weld_positions,
                                     convention, refine, denoise, weld_distance);
@@ -88,13 +89,13 @@ std::uint32_t buffers(const TangentPlan* plan, const std::uint32_t* indices, std
 TSPACE_JS_EXPORT(makeIndexedFrames)
 std::uint32_t frames(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
                      std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, bool normalize_normals,
-                     bool make_normals, bool sanitize, bool orthogonalize_all, std::uint32_t weighting, float crease_angle_deg,
-                     const std::uint32_t* groups, std::size_t group_count, bool groups_are_masks, bool weld_positions,
-                     std::uint32_t normal_convention, std::uint32_t normal_refine, float normal_denoise, float weld_distance,
-                     std::uint32_t* result) {
+                     bool make_normals, bool sanitize, bool orthogonalize_all, std::uint32_t weighting,
+                     float crease_angle_deg, const std::uint32_t* groups, std::size_t group_count,
+                     bool groups_are_masks, bool weld_positions, std::uint32_t normal_convention,
+                     std::uint32_t normal_refine, float normal_denoise, float weld_distance, std::uint32_t* result) {
     IndexedFramesOptions options;
-    options.tangents = tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine,
-                                        normalize_normals);
+    options.tangents =
+        tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine, normalize_normals);
     options.normals = normalOptions(weighting, crease_angle_deg, groups, group_count, groups_are_masks, weld_positions,
                                     normal_convention, normal_refine, normal_denoise, weld_distance);
     options.make_normals = make_normals;

@@ -2,12 +2,12 @@
 // The module of the entry "tspace/gltf": the C file API for models in memory, behind a single function.
 #include <cstdlib>
 
-#include "model/read/read_scene.h"
 #include "api/c_call.h"
 #include "codecs.h"
+#include "commands/shared/request.h"
 #include "exports.h"
 #include "images/image.h"
-#include "commands/shared/request.h"
+#include "model/read/read_scene.h"
 #include "tspace/tspace_files.h"
 
 using namespace tspace;

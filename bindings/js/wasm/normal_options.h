@@ -8,8 +8,8 @@
 namespace tspace::js {
 
 inline NormalOptions normalOptions(std::uint32_t weighting, float crease_angle_deg, const std::uint32_t* groups,
-                            std::size_t group_count, bool groups_are_masks, bool weld_positions,
-                            std::uint32_t convention, std::uint32_t refine, float denoise, float weld_distance) {
+                                   std::size_t group_count, bool groups_are_masks, bool weld_positions,
+                                   std::uint32_t convention, std::uint32_t refine, float denoise, float weld_distance) {
     NormalOptions options;
     options.weighting = static_cast<NormalWeighting>(weighting);
     options.crease_angle_deg = crease_angle_deg;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The module of the entry "tspace/normals": normals of noisy meshes, automatic hard edges, and winding.
-#include "common.h"
 #include "tspace/normals.h"
+#include "common.h"
 #include "tspace/winding.h"
 
 using namespace tspace;

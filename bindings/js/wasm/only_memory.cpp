@@ -64,7 +64,9 @@ Bytes rewriteMap(const Scene&, ByteSpan, const GenerateOptions&, JudgedMap& map)
     map.report.reason = "images cannot be rewritten in JavaScript";
     return {};
 }
-ConvertedHeights normalMapFromHeights(const Scene&, std::size_t, std::size_t, double, const GenerateOptions&) { return {}; }
+ConvertedHeights normalMapFromHeights(const Scene&, std::size_t, std::size_t, double, const GenerateOptions&) {
+    return {};
+}
 
 gltf::MapConversion::MapConversion(gltf::Model& model, const GenerateOptions& options)
     : model_(model), options_(options) {

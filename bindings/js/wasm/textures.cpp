@@ -209,9 +209,9 @@ std::uint32_t readTexture(const std::uint8_t* data, std::size_t size, std::size_
     return 0;
 }
 
-/// Converts a map as `tspace convert-map` does without a mesh. `channels`: the value of --channels, or null; `curve`: the
-/// number of a MapCurve. The pixels are in textureWords(): 8 bits per channel if the only change to an 8-bit image is
-/// an inverted green channel, otherwise 16.
+/// Converts a map as `tspace convert-map` does without a mesh. `channels`: the value of --channels, or null; `curve`:
+/// the number of a MapCurve. The pixels are in textureWords(): 8 bits per channel if the only change to an 8-bit image
+/// is an inverted green channel, otherwise 16.
 TSPACE_JS_EXPORT(convertMap)
 std::uint32_t convertMap(const ImageWords* given, const char* channels, std::uint32_t curve, bool flips_red,
                          bool flips_green) {

@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <typeinfo>
 
-#include "model/io/file_error.h"
 #include "api/c_call.h"
 #include "core/base/memory.h"
 #include "exports.h"
+#include "model/io/file_error.h"
 
 using namespace tspace;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// bakeFile: reads, bakes, and writes maps and their pictures; its report as JSON. The steps of baking, in the order of this file:
+// bakeFile: reads, bakes, and writes maps and their pictures; its report as JSON. The steps of baking, in the order of
+// this file:
 //
 //   1. setLimits, checkOutput, checkOutMesh: what the options and the names of outputs allow
 //   2. noteNoise: a warning about the positions of the high poly

@@ -28,7 +28,8 @@ struct FinishViews {
 std::string finishPage(const FinishReport& report, const FinishViews& views, const std::string& output_path,
                        std::span<const std::uint8_t> output, const FileOptions& file, const PageOrigin& origin);
 
-/// Returns the files that finishFile() writes, without the page, for a comparison with `others` as in outputsToCompare().
+/// Returns the files that finishFile() writes, without the page, for a comparison with `others` as in
+/// outputsToCompare().
 std::vector<std::string> finishOutputs(const std::vector<std::string>& others, const std::string& output,
                                        const FinishOptions& options);
 

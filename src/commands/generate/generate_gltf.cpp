@@ -213,9 +213,9 @@ bool flipWrongTriangles(Input& input, const Storage& storage, std::span<const st
     return true;
 }
 
-/// Repairs attributes if requested: all, or those of primitives whose normals are recomputed, because vertices cannot be
-/// split if an attribute has another number of elements. Returns whether any were repaired; in this case the container has been converted to
-/// that of the output. Primitives that lost their normals get new ones.
+/// Repairs attributes if requested: all, or those of primitives whose normals are recomputed, because vertices cannot
+/// be split if an attribute has another number of elements. Returns whether any were repaired; in this case the
+/// container has been converted to that of the output. Primitives that lost their normals get new ones.
 bool repairFaults(Input& input, const Storage& storage, bool is_asked_for, RecomputedNormals& recomputed,
                   std::vector<std::string>& warnings) {
     const GenerateOptions& options = input.options;

@@ -21,8 +21,8 @@ struct GenerateStep {
     std::vector<std::uint32_t> wound_meshes = {};
     /// Repairs attributes with a wrong type or element count; otherwise generate repairs them only with some options.
     bool repairs_attributes = false;
-    /// Path to which the model will be written: a GLB in the folder of an OBJ references its images instead of embedding
-    /// them.
+    /// Path to which the model will be written: a GLB in the folder of an OBJ references its images instead of
+    /// embedding them.
     std::string output = "model.glb";
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// mapErrorFile: reads a map and both models, and measures the error; its report as JSON. The steps of measuring, in the order of
-// this file:
+// mapErrorFile: reads a map and both models, and measures the error; its report as JSON. The steps of measuring, in the
+// order of this file:
 //
 //   1. bakeOptionsOf: the options with which both models are read
 //   2. listFrames, listReadings: the tangents and encodings that the map may have been made for

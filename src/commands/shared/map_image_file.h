@@ -58,8 +58,8 @@ MapMesh readMapMesh(const std::string& model, const MapMeshChoice& choice, const
 FloatImage readMapImage(const std::string& input, ByteSpan content, const FileOptions& file,
                         ImageUse use = ImageUse::vectors);
 
-/// Calls readMapMesh, and adds the name of the model to its errors and warnings, because errors of a call are printed with the name
-/// of the image.
+/// Calls readMapMesh, and adds the name of the model to its errors and warnings, because errors of a call are printed
+/// with the name of the image.
 MapMesh readNamedMapMesh(const std::string& model, const MapMeshChoice& choice, const TangentOptions& tangents,
                          const FileOptions& file, const Execution& execution);
 

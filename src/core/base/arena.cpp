@@ -84,7 +84,7 @@ void releaseSpace(std::byte*, std::size_t) {}
 class Arena::Impl {
   public:
     Impl() {
-        // Where address space is limited (ulimit -v), reserves a quarter of the available space and leaves the rest to others.
+        // Where address space is limited (ulimit -v), reserves a quarter of the available space, and no more.
         std::size_t bytes = kReserved;
         std::byte* space = nullptr;
         while (bytes >= kLeastReserved && (space = reserveSpace(bytes)) == nullptr) bytes /= 4;

@@ -11,9 +11,9 @@ inline constexpr bool kHasAllMethods = false;
 inline constexpr bool kHasAllMethods = true;
 #endif
 
-/// true: the WebAssembly module of `tspace/mikktspace`, whose size matters more than its speed. It writes no bitangents,
-/// its caller rejects n-gons and separate index lists, and it plans each mesh, which takes half of the code and twice the
-/// time of one pass.
+/// true: the WebAssembly module of `tspace/mikktspace`, whose size matters more than its speed. It writes no
+/// bitangents, its caller rejects n-gons and separate index lists, and it plans each mesh, which takes half of the code
+/// and twice the time of one pass.
 #if defined(TSPACE_MIKKTSPACE_ONLY) && defined(TSPACE_SMALL)
 inline constexpr bool kIsMinimal = true;
 #else

@@ -44,8 +44,8 @@ class TriangleGroups {
     ~TriangleGroups() = default;
 };
 
-/// Pads a list of vertices with a valid vertex up to a whole group of triangles, because kernels process no partial groups.
-/// Returns `vertices` if no padding is necessary, otherwise `buffer`, which may be the same array.
+/// Pads a list of vertices with a valid vertex up to a whole group of triangles, because kernels process no partial
+/// groups. Returns `vertices` if no padding is necessary, otherwise `buffer`, which may be the same array.
 inline const std::uint32_t* fillGroup(const std::uint32_t* vertices, std::size_t count, std::size_t group,
                                       std::uint32_t* buffer) {
     const std::size_t end = (count + group - 1) / group * group;

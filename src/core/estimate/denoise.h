@@ -299,8 +299,8 @@ RingSums::Rest RingSums::eliminate() const {
 
 // NormalOptions::denoise: measurement of noise, and normals without noise.
 
-/// Samples some thousand edges, using the normals of `best` at their ends (call.out). mean_edge is 0 if no edge has a finite
-/// length; a call without results returns only mean_edge. Takes 64 KB.
+/// Samples some thousand edges, using the normals of `best` at their ends (call.out). mean_edge is 0 if no edge has a
+/// finite length; a call without results returns only mean_edge. Takes 64 KB.
 PositionNoise sampleEdges(const NormalsCall& call);
 
 /// Kink share from which all roughness counts as noise if positions hardly deviate from a smooth surface. Up to half of

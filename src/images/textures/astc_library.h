@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Arm's astcenc, which is loaded for the first ASTC texture. Only builds with its header (TSPACE_HAS_ASTC) include this.
+// Arm's astcenc, which is loaded for the first ASTC texture. Included only with its header (TSPACE_HAS_ASTC).
 #pragma once
 
 #define ASTCENC_DYNAMIC_LIBRARY

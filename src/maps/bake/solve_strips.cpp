@@ -103,7 +103,8 @@ class Solving {
                     texels_.begin() + strip.first * width);
     }
 
-    /// Adds the equations of smooth cells, whose target is the initial texels; neighboring strips solve the shared rows as well.
+    /// Adds the equations of smooth cells, whose target is the initial texels; neighboring strips solve the shared rows
+    /// as well.
     void addSmooth(const Strip& strip, std::span<Vec3> texels, TexelSystem& system) {
         const std::size_t width = plan_.width, last = texels.size() - width;
         const std::vector<Vec3> top(texels.begin(), texels.begin() + kRowsStay * width),

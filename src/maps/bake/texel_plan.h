@@ -57,8 +57,8 @@ CellSampling samplingOf(const BakeOptions& options);
 inline constexpr float kWantedLength = 0.98F;
 
 /// Classifies all cells. `all_unknown`: if true, all texels that are read are unknown, and no cell is `sampled`;
-/// otherwise the texels of rough cells are unknown, and other cells that share a texel with them are `sampled`. Memory: 5
-/// bytes per texel temporarily, 2 permanently.
+/// otherwise the texels of rough cells are unknown, and other cells that share a texel with them are `sampled`. Memory:
+/// 5 bytes per texel temporarily, 2 permanently.
 TexelPlan planTexels(const TracedTexels& traced, const TexelTriangles& triangles, float tolerance, bool all_unknown,
                      Parallel& parallel, const Allocator* allocator);
 

@@ -124,8 +124,8 @@ void forNonAdjacent(std::size_t count, const Some& some) {
 /// Callback before step `done` of at most `total` steps. It may throw, which ends the call.
 using StepCallback = std::function<void(std::uint64_t done, std::uint64_t total)>;
 
-/// Calls row(y) for all rows of an image that repeats; adjacent rows never run at the same time. The steps of `report_step` are
-/// rows.
+/// Calls row(y) for all rows of an image that repeats; adjacent rows never run at the same time. The steps of
+/// `report_step` are rows.
 template <class Row>
 void forNonAdjacentRows(Parallel& parallel, std::uint32_t height, const Row& row,
                         const StepCallback& report_step = {}) {

@@ -39,7 +39,8 @@ std::string otherTangentReader(const Document& document, const Primitive& primit
 std::vector<std::size_t> variantMaterials(const Document& document, const Primitive& primitive);
 
 /// Returns whether a material ignores normals and normal maps: it has KHR_materials_unlit, no extension that overrides
-/// it (VRMC_materials_mtoon; VRM 0.x with a `_BumpMap`), and no extension unknown to tspace that names a normal or bump map.
+/// it (VRMC_materials_mtoon; VRM 0.x with a `_BumpMap`), and no extension unknown to tspace that names a normal or bump
+/// map.
 bool isUnlit(const Document& document, std::size_t material);
 
 /// Returns the VRM 0.x properties of a material from the root of the file. VRM readers use them instead of the glTF

@@ -214,9 +214,9 @@ class FileFinder {
     FileFinder(const NamedFiles& files, Path folder, std::vector<std::string>& warnings)
         : files_(files), folder_(std::move(folder)), warnings_(warnings) {}
 
-    /// Returns a path in the folder, resolved like a URI, if that file exists. If the text has a comment (" # ..."), which
-    /// other readers take as a part of the name, the name without it is tried too. If no file exists, returns the path
-    /// without quotes and with slashes as separators.
+    /// Returns a path in the folder, resolved like a URI, if that file exists. If the text has a comment (" # ..."),
+    /// which other readers take as a part of the name, the name without it is tried too. If no file exists, returns the
+    /// path without quotes and with slashes as separators.
     std::string find(const std::string& text) {
         if (const std::optional<std::string> path = existing(text)) return *path;
         constexpr int kMostTries = 8;
@@ -237,8 +237,8 @@ class FileFinder {
     }
 
   private:
-    /// Returns the path of a file that exists. Of an absolute path, the file name alone is tried too, because such paths
-    /// nearly always come from another computer.
+    /// Returns the path of a file that exists. Of an absolute path, the file name alone is tried too, because such
+    /// paths nearly always come from another computer.
     std::optional<std::string> existing(const std::string& text) {
         std::string slashed = unquoted(text);
         const std::string plain = withSlashes(slashed);

@@ -250,8 +250,8 @@ struct Scene {
     std::vector<ScenePrimitive> primitives = {};  ///< primitives, in file order
     std::vector<SceneImage> images = {};          ///< referenced by TangentUse::image
     std::vector<std::string> warnings = {};       ///< warnings of the reader
-    /// Indices, in `warnings`, of the warnings about scaled and invalid normals. Checks report these normals by findings
-    /// on their primitives instead.
+    /// Indices, in `warnings`, of the warnings about scaled and invalid normals. Checks report these normals by
+    /// findings on their primitives instead.
     std::vector<std::size_t> normals_warnings = {};
     [[nodiscard]] std::vector<std::string> normalsWarnings() const {
         std::vector<std::string> texts;

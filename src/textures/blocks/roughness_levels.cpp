@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Based on: Toksvig, Mipmapping Normal Maps, 2004; Olano and Baker, LEAN Mapping, 2010; Neubelt and Pettineo, The Order: 1886, 2013.
+// Based on: Toksvig, Mipmapping Normal Maps, 2004; Olano and Baker, LEAN Mapping, 2010; Neubelt and Pettineo, The
+// Order: 1886, 2013.
 #include "textures/blocks/roughness_levels.h"
 
 #include <algorithm>

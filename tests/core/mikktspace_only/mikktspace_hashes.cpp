@@ -64,8 +64,8 @@ Mesh readGolden(const std::filesystem::path& path) {
     return mesh;
 }
 
-/// Returns a rough sheet, mirrored in bands, of faces with 3 to `most` corners, and, with `flat`, a normal per face. Uses
-/// only integers, whose results the standard defines.
+/// Returns a rough sheet, mirrored in bands, of faces with 3 to `most` corners, and, with `flat`, a normal per face.
+/// Uses only integers, whose results the standard defines.
 Mesh makeSheet(std::uint32_t side, std::uint32_t most, bool flat) {
     std::mt19937 random(side);
     const auto below = [&](std::uint32_t limit) { return static_cast<std::uint32_t>(random()) % limit; };

@@ -126,7 +126,8 @@ EqualVertices findEqualVertices(const TangentView& mesh, bool with_uvs) {
     return findEqualVertices(mesh.positions, mesh.normals, with_uvs ? mesh.uvs : std::span<const Vec2>());
 }
 
-// Rotation between two unit vectors: Moeller & Hughes, "Efficiently Building a Matrix to Rotate One Vector to Another", 1999.
+// Rotation between two unit vectors. Based on: Moeller & Hughes, "Efficiently Building a Matrix to Rotate One Vector to
+// Another", 1999.
 
 namespace {
 

@@ -25,8 +25,8 @@ inline constexpr std::size_t kTermTriangles = 64;  ///< triangles per block, who
 inline constexpr std::size_t kTermCorners = 3 * kTermTriangles;
 inline constexpr std::size_t kTermGroup = 16;  ///< maximum number of triangles that a kernel reads at once
 
-/// Directions of corner k of triangle t, [component][k][t]: the projected tangent, and the projected bitangent before it is
-/// normalized.
+/// Directions of corner k of triangle t, [component][k][t]: the projected tangent, and the projected bitangent before
+/// it is normalized.
 struct CornerDirections {
     alignas(64) float unit_s[3][3][kTermTriangles], projected_t[3][3][kTermTriangles];
 };

@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: MIT
 // Finds the last bucket of the reference's edge list, and the links that its order changes.
 //
-// The key of an edge is the lower one of its two nodes' representatives (which are corners), and the last bucket contains
-// the edges with the largest key, V. The largest key in a triangle is the middle one of its three representatives. Let F
-// be the lowest corner of some triangles at the end of the list: the representatives of nodes outside these triangles are
-// less than F. Therefore, if the representatives of nodes of these triangles yield a key of at least F, the largest such
-// key is V, and both ends of all edges of the bucket are among these nodes. Otherwise more triangles are needed.
+// The key of an edge is the lower one of its two nodes' representatives (which are corners), and the last bucket
+// contains the edges with the largest key, V. The largest key in a triangle is the middle one of its three
+// representatives. Let F be the lowest corner of some triangles at the end of the list: the representatives of nodes
+// outside these triangles are less than F. Therefore, if the representatives of nodes of these triangles yield a key of
+// at least F, the largest such key is V, and both ends of all edges of the bucket are among these nodes. Otherwise more
+// triangles are needed.
 //
-// If the order of the bucket can change a link, the reference's first sort (a quicksort with a fixed seed, not stable) is
-// replayed.
+// If the order of the bucket can change a link, the reference's first sort (a quicksort with a fixed seed, not stable)
+// is replayed.
 //
 // Every step ends as soon as the remaining work cannot change the result. Gains in instructions of a whole call, on 355
 // primitives of real models:
 //
 // step                    the step ends if                               gain
-// mayMatter               no node has three edges that may be in the     no grid is read for most primitives of up to 50
-//                         bucket: the order of two edges is irrelevant   triangles
+// mayMatter               no node has three edges that may be in the     no grid is read for most primitives of up to
+//                         bucket: the order of two edges is irrelevant   50 triangles
 // leastKey (small mesh)   the same, for a lower bound of V: corners      77 of 98 primitives of up to 50 triangles end
 //                         bound representatives                          here: 23,640 to 21,690 instructions per call
 // findBucket, 5 or 10     a key of at least F is among the last          5 and 10 instead of 6 and 12: 0.3 % up to 50
 // triangles               triangles, as in natural order                 triangles, 0.7 % above 5,000
 //   24 if unordered       one in 36 edges of a late triangle has its     20,000 shuffled triangles: 6.8 % more with 10,
 //                         key among these triangles                      0.2 % more with 24
-//   as far as V / 3       the triangles reach back to the largest key    up to 50 triangles 1.4 %, up to 500 6.8 %, above
-//                         so far, which is a corner                      0.5 % (with shared counters)
+//   as far as V / 3       the triangles reach back to the largest key    up to 50 triangles 1.4 %, up to 500 6.8 %,
+//                         so far, which is a corner                      above 0.5 % (with shared counters)
 // orderMatters            fewer than three half-edges, or no edge in     no replay for nearly all meshes that get this
 //                         both directions                                far
 // sortRecords             follows only the side of each partition that   about 4 steps per element of a random order,

@@ -4,7 +4,7 @@
 //
 //   1. sums: for all nodes, with the marks shared by their triangles, and their fans (node_sums.cpp)
 //   2. finishNodes: replaces the sums of simple nodes by results in place; marks others as complex
-//   3. checkPolygons, checkDegenerateUvs: mark nodes to which the reference's rules about whole triangles apply as complex
+//   3. checkPolygons, checkDegenerateUvs: mark nodes as complex if the reference's rules about whole triangles apply
 //   4. estimators: for `fast` and `best` the sums are replaced by estimates, for simple and complex nodes together
 //   5. writeCorners: each corner gets the result of its node
 //   6. the vertex path plans and evaluates complex nodes (plan.cpp, evaluate.cpp), overwriting the results of step 5
@@ -45,7 +45,7 @@ struct OnePass {
           defaults(output),
           complex(allocator, setting.nodes.count / 64 + 1, std::uint64_t{0}) {}
 
-    /// Returns whether the method is `fast` or `best`, whose sums come from estimators; this pass then only forms groups.
+    /// Returns whether the method is `fast` or `best`: estimators compute its sums, and this pass only forms groups.
     [[nodiscard]] bool estimates() const { return isEstimated(in.options.method); }
     [[nodiscard]] bool isComplex(std::size_t n) const { return (complex[n / 64] >> (n % 64) & 1) != 0; }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// MikkTSpace (Morten S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008), step by step, with the bits of the
-// reference implementation at commit 3e895b4. docs/concepts/methods/mikktspace.md explains each step under the same number.
+// MikkTSpace (Morten S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008), step by step, with the bits of
+// the reference implementation at commit 3e895b4. docs/concepts/methods/mikktspace.md has the same steps.
 //
-// All arithmetic is single precision in the written order; where the order of operations or of list entries looks arbitrary,
-// it is the order of the reference, and the last bits depend on it. A comparison that is written as !(a > b) is true for NaN.
+// All arithmetic is single precision in the written order; where the order of operations or of list entries looks
+// arbitrary, it is the order of the reference, and the last bits depend on it. A comparison that is written as !(a > b)
+// is true for NaN.
 #include "core/tangents/mikktspace/plain.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace tspace::mikk {
 
 namespace {
 
-// ---------------------------------------------------------------------------------------------------------------- Vectors
+// ------------------------------------------------------------------------------------------------------------- Vectors
 
 Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
@@ -41,7 +42,7 @@ Vec3 unit(Vec3 v) {
 /// is not corrected.
 Vec3 unitInPlane(Vec3 n, Vec3 v) { return unit(v - dot(n, v) * n); }
 
-// ------------------------------------------------------------------------------------------------------------------- Data
+// ---------------------------------------------------------------------------------------------------------------- Data
 
 constexpr std::uint32_t kNone = 0xffffffffu;
 
@@ -98,7 +99,7 @@ struct Frame {
     bool is_written = false;
 };
 
-// -------------------------------------------------------------------------------------------------------- Step 1. Triangles
+// --------------------------------------------------------------------------------------------------- Step 1. Triangles
 
 float distanceSquared(Vec2 a, Vec2 b) { return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y); }
 float distanceSquared(Vec3 a, Vec3 b) { return dot(a - b, a - b); }
@@ -136,10 +137,11 @@ std::vector<Triangle> cutFaces(const Corners& data) {
     return triangles;
 }
 
-// ------------------------------------------------------------------------------------------------------------- Step 2. Weld
+// -------------------------------------------------------------------------------------------------------- Step 2. Weld
 
-/// Finds the node of each entry, where an entry is a corner of a triangle: entries with equal position, normal and UV get the
-/// same node. Which of the equal corners represents the node depends on the order in which this search compares them.
+/// Finds the node of each entry, where an entry is a corner of a triangle: entries with equal position, normal and UV
+/// get the same node. Which of the equal corners represents the node depends on the order in which this search compares
+/// them.
 class Welding {
   public:
     Welding(const Corners& data, std::vector<std::uint32_t>& corners) : data_(data), nodes_(corners) {}
@@ -189,7 +191,7 @@ class Welding {
     /// smallest integer and therefore the first cell.
     static int cellOf(float q) { return q > 0 && q < 2147483648.0f ? std::min(static_cast<int>(q), 2047) : 0; }
 
-    /// Splits the entries in place at the center of their longest axis, until positions do not differ or are not finite.
+    /// Splits the entries in place at the center of their longest axis, until positions are equal or not finite.
     void weld(Entry* entries, std::ptrdiff_t count) {
         if (count < 2) return;
         Box box(entries[0].position);
@@ -254,7 +256,7 @@ std::vector<Triangle> takeDegenerate(const Corners& data, std::vector<Triangle>&
     return degenerate;
 }
 
-// ----------------------------------------------------------------------------------------------------- Step 3. Face vectors
+// ------------------------------------------------------------------------------------------------ Step 3. Face vectors
 
 void computeFaceVectors(const Corners& data, Triangle& triangle) {
     const auto [a, b, c] = triangle.nodes;
@@ -287,7 +289,7 @@ void unifyQuads(std::vector<Triangle>& triangles) {
     }
 }
 
-// -------------------------------------------------------------------------------------------------------- Step 4. Neighbors
+// --------------------------------------------------------------------------------------------------- Step 4. Neighbors
 
 struct Edge {
     std::uint32_t low, high;  ///< nodes of its ends, with the smaller number first
@@ -331,8 +333,9 @@ bool comesBefore(const Edge& a, const Edge& b) {
     return a.half_edge.triangle < b.half_edge.triangle;
 }
 
-/// Sorts edges by their nodes and triangles. With Pairing::reference, the last bucket (all edges with the largest `low`) keeps
-/// the order of the quicksort, except that runs of equal `high` are sorted by triangle, all but the last run.
+/// Sorts edges by their nodes and triangles. With Pairing::reference, the last bucket (all edges with the largest
+/// `low`) keeps the order of the quicksort, except that runs of equal `high` are sorted by triangle, all but the last
+/// run.
 void sortEdges(std::vector<Edge>& edges, Pairing pairing) {
     if (edges.empty()) return;
     if (pairing == Pairing::corrected) return std::sort(edges.begin(), edges.end(), comesBefore);
@@ -374,7 +377,7 @@ void pairEdges(std::vector<Triangle>& triangles, Pairing pairing) {
     }
 }
 
-// ----------------------------------------------------------------------------------------------------------- Step 5. Groups
+// ------------------------------------------------------------------------------------------------------ Step 5. Groups
 
 /// Adds the triangles that follow `from` around the node to the group, until one is missing, belongs to a group
 /// already, or has the other orientation.
@@ -412,7 +415,7 @@ std::vector<Group> makeGroups(std::vector<Triangle>& triangles) {
     return groups;
 }
 
-// ------------------------------------------------------------------------------------------------------------- Step 6. Mean
+// -------------------------------------------------------------------------------------------------------- Step 6. Mean
 
 /// Returns the angle of a corner between its two edges in the plane perpendicular to n. The arc cosine is computed in
 /// double precision.
@@ -495,7 +498,7 @@ float thresholdCosine(float degrees) {
     return static_cast<float>(std::cos(static_cast<double>(degrees * 3.14159274f / 180.0f)));
 }
 
-// --------------------------------------------------------------------------------------------- Step 7. Degenerate triangles
+// ---------------------------------------------------------------------------------------- Step 7. Degenerate triangles
 
 /// Copies results to the corners of degenerate triangles. Each corner gets the result of the first other corner at its
 /// node. A quad with one degenerate half has one corner that its other half lacks: that corner copies the corner of the
@@ -525,7 +528,7 @@ void copyToDegenerate(const Corners& data, const std::vector<Triangle>& triangle
     }
 }
 
-// ------------------------------------------------------------------------------------------------------------- Step 8. Sign
+// -------------------------------------------------------------------------------------------------------- Step 8. Sign
 
 /// Writes the frames of all corners; corners of ignored faces get zeros.
 void writeFrames(const MeshView& mesh, const std::vector<Frame>& frames, float sign_factor, const TangentOutput& out) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The method `mikktspace` in its plainest form: scalar code that follows docs/concepts/methods/mikktspace.md step by step. It is written to
-// be read, and tests compare the engine with it bit for bit. The library itself does not contain it.
+// The method `mikktspace` in its plainest form: scalar code that follows docs/concepts/methods/mikktspace.md step by
+// step. It is written to be read, and tests compare the engine with it bit for bit. The library itself does not contain
+// it.
 #pragma once
 
 #include "tspace/tangents.h"
 
 namespace tspace::mikk {
 
-/// Computes the result of generateTangents() with Method::mikktspace and Ngons::skip, without threads, kernels or plans.
+/// Computes the result of generateTangents() with Method::mikktspace and Ngons::skip, without threads and kernels.
 ///
 /// mesh     a mesh that validate() accepts, with normals and UVs
 /// options  convention, angular_threshold_deg and pairing are used

@@ -7,16 +7,16 @@
 //
 // list             how many               an entry is                                its top bit (kTopBit) means
 // vertices         one per h              the vertex with the data of its corner      -
-// groups           one per h              its group                                  it adds nothing to the sum (no UV area)
-// slots            one per h, or empty    its corner of the mesh                     the corner has several results: conflicts
+// groups           one per h              its group                                  it adds nothing (no UV area)
+// slots            one per h, or empty    its corner of the mesh                     it has several results: conflicts
 // triangles        one per t, or empty    its number in the mesh                     -
 // group_positive   one per group          1: positive UV area                        -
 // uvs, terms       vertices; blocks of t  kept plans have UVs, others CornerTerms    -
 // splits           one per split group    a range of `members`, its first row        -
 // members          members of these       an h                                       -
 // split_rows       one row per member     bit b: member b counts for this member     -
-// conflicts        two or more per corner  a corner of the mesh, and a source:        source is a place in `members`, not
-//                                         a group whose result it takes              a group
+// conflicts        two or more per corner  a corner of the mesh, and a source:        source is in `members`, no group
+//                                         a group whose result it takes
 // default_corners  one per corner         a corner of the mesh without a group       -
 // skipped_corners  one per corner         a corner of an ignored face                -
 // copies           one per corner         a corner of a degenerate triangle, and the corner that it copies

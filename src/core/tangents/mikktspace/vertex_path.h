@@ -4,9 +4,9 @@
 // groups, with a fan of too many parts, with contested or degenerate triangles, with sums that do not prove that
 // nothing splits, or in the reference's last bucket. planTangents selects all nodes.
 //
-//   plan.cpp            triangles around the selected nodes, one orientation per face, corners node by node; and the plan
-//   groups.cpp          links between the corners of a node, groups, contested triangles; groups that an angular threshold
-//                       below 180 degrees separates
+//   plan.cpp    triangles around the selected nodes, one orientation per face, corners node by node; and the plan
+//   groups.cpp  links between the corners of a node, groups, contested triangles; groups that an angular threshold
+//               below 180 degrees separates
 #pragma once
 
 #include <cstddef>

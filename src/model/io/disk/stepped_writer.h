@@ -22,8 +22,8 @@ inline int writeTo(std::FILE* file, std::span<const std::uint8_t> bytes) {
     return std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() ? 0 : errno != 0 ? errno : EIO;
 }
 
-/// Writes a file in steps, each of which is flushed while the next is written. A process does not end while it waits for
-/// the disk, so flushing a large file at once would delay the effect of a signal by seconds.
+/// Writes a file in steps, each of which is flushed while the next is written. A process does not end while it waits
+/// for the disk, so flushing a large file at once would delay the effect of a signal by seconds.
 class SteppedWriter {
   public:
     SteppedWriter(std::FILE* file, bool flushes) : file_(file), flushes_(flushes) {}
