@@ -82,8 +82,7 @@ def python_array_calls(*sources):
         full = next((each for each in function.args.kwonlyargs if each.arg == "full"), None)
         for choice, returned in zip((False, True), function.returns.slice.elts if full else ()):
             full.annotation = ast.parse(f"Literal[{choice}]").body[0].value
-            lines += ["", "", "@overload", f"def {function.name}(", *parameters(function), f") -> {ast.unparse(returned)}:",
-                      "    ..." if choice else f'    """{ast.get_docstring(function, clean=False)}"""']
+            lines += ["", "", "@overload", f"def {function.name}(", *parameters(function), f") -> {ast.unparse(returned)}: ..."]
             function.args.kw_defaults[function.args.kwonlyargs.index(full)] = None
     return lines
 

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Checks help(): its examples run, and all arguments are documented and typed."""
 
+import ast
 import doctest
+import importlib
 import inspect
 import pydoc
 import typing
@@ -44,6 +46,14 @@ class Help(unittest.TestCase):
                         self.assertRegex(text, rf"(?m)^[ ,\w]*\b{argument}\b[ ,\w]*:")
                         self.assertIn(argument, hints)
             self.assertTrue(name == "Plan" or "return" in hints, name)
+
+    def test_functions_in_stubs_take_their_docstrings_from_modules(self):
+        for stub in Path(tspace.__file__).parent.glob("*.pyi"):
+            module = importlib.import_module(f"tspace.{stub.stem}")
+            for node in ast.parse(stub.read_text()).body:
+                if isinstance(node, ast.FunctionDef):
+                    self.assertIsNone(ast.get_docstring(node), node.name)
+                    self.assertIs(getattr(module, node.name), getattr(tspace, node.name))
 
     def test_the_package_is_marked_as_typed(self):
         self.assertTrue((Path(tspace.__file__).parent / "py.typed").exists())

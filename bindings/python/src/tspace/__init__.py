@@ -80,10 +80,25 @@ Threads
     call uses one thread unless `threads` is larger; results have the same bits for any number of threads.
 """
 
-from typing import TYPE_CHECKING
-
 from ._abi import library as _library
+from ._array_calls import normals, pack_frames, sanitize, tangents
 from ._errors import Error, FileError, IndexRangeError, InputError, ReadWriteError, UnknownOptionError
+from ._file_calls import (
+    bake_file,
+    check,
+    compress_map_bytes,
+    compress_map_file,
+    diff,
+    finish_file,
+    flip_green_bytes,
+    flip_green_file,
+    generate_bytes,
+    generate_file,
+    convert_map_file,
+    height_to_normal_file,
+    identify,
+    inspect,
+)
 from ._files import (
     BakeReport,
     CheckReport,
@@ -111,48 +126,6 @@ from ._sanitize import SanitizeResult
 from ._split import Split, Triangles, split, triangulate
 from ._tangents import MeshJob, Plan, TangentResult, tangents_of_meshes
 from ._winding import WindingResult, fix_winding, mend_winding
-
-# Type checkers see that the results of functions of arrays depend on `full`. They also see each option of the file
-# functions; at run time an unknown option raises an error that lists the valid ones.
-if TYPE_CHECKING:
-    from ._array_calls import normals, pack_frames, sanitize, tangents
-    from ._file_calls import (
-        bake_file,
-        check,
-        compress_map_bytes,
-        compress_map_file,
-        diff,
-        finish_file,
-        flip_green_bytes,
-        flip_green_file,
-        generate_bytes,
-        generate_file,
-        convert_map_file,
-        height_to_normal_file,
-        identify,
-        inspect,
-    )
-else:
-    from ._normals import normals
-    from ._pack import pack_frames
-    from ._sanitize import sanitize
-    from ._tangents import tangents
-    from ._files import (
-        bake_file,
-        check,
-        compress_map_bytes,
-        compress_map_file,
-        diff,
-        finish_file,
-        flip_green_bytes,
-        flip_green_file,
-        generate_bytes,
-        generate_file,
-        convert_map_file,
-        height_to_normal_file,
-        identify,
-        inspect,
-    )
 
 _number = _library.tspace_version()
 __version__ = f"{_number // 10000}.{_number // 100 % 100}.{_number % 100}"

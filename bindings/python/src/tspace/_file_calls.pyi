@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The functions of files as type checkers see them: with each option by its name. At run time they are those of _files.py."""
+"""Types of _file_calls.py, with each option by its name."""
 
 from typing import Literal, Optional, Sequence, Union
 
