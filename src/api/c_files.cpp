@@ -60,6 +60,49 @@ std::string withoutEnding(const std::string& name) {
     return dot == std::string::npos || (slash != std::string::npos && dot < slash) ? name : name.substr(0, dot);
 }
 
+template <class Options>
+using ListOf = options::OptionList(Options&);
+
+/// Reads the options of a call, and applies the rules that involve several of them.
+template <class Options>
+void readOptionsOf(ListOf<Options>* listOf, const char* text, Options& to) {
+    const options::OptionList list = listOf(to);  // the parsed options point into it
+    options::Given given;
+    readOptions(list, text, given);
+    if constexpr (requires { options::finish(given, to); }) {
+        const std::string wrong = options::finish(given, to);
+        if (!wrong.empty()) failFile(ErrorCode::invalidOption, wrong);
+    }
+}
+
+FileOptions& fileOf(FileOptions& options) { return options; }
+FileOptions& fileOf(IdentifyOptions& options) { return options.file; }
+FileOptions& fileOf(options::CheckRequest& request) { return request.options.file; }
+
+/// Calls call(input, options, report), which returns only a report.
+template <class Options, class Call>
+tspace_ErrorCode reportOnFile(ListOf<Options>* listOf, const Call& call, const char* input, const char* text,
+                              tspace_Bytes* report, tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        const std::string from = requiredText(input, "input");
+        Options chosen;
+        readOptionsOf(listOf, text, chosen);
+        call(from, chosen, report);
+    });
+}
+
+/// Calls call(name of the model, options, report), which returns only a report.
+template <class Options, class Call>
+tspace_ErrorCode reportOnModel(ListOf<Options>* listOf, const Call& call, const tspace_Model* model, const char* text,
+                               tspace_Bytes* report, tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        Options chosen;
+        openModel(model, fileOf(chosen));
+        readOptionsOf(listOf, text, chosen);
+        call(nameOf(*model), chosen, report);
+    });
+}
+
 /// Creates `output` from `input` with `make`, and returns its report.
 template <class Report, class Options>
 void makeFile(Result<Report> (*make)(const std::string&, const std::string&, const Options&),
@@ -70,18 +113,34 @@ void makeFile(Result<Report> (*make)(const std::string&, const std::string&, con
         outcome, [&] { return make(input, output, options); }, [&] { return toJson(outcome, ExitCode::done); }, json);
 }
 
-/// Reads options that depend on each other. `list` must exist until they are applied, because the parsed options point
-/// into it.
-template <class Options>
-void readTogether(const options::OptionList& list, const char* text, Options& to) {
-    options::Given given;
-    readOptions(list, text, given);
-    const std::string wrong = options::finish(given, to);
-    if (!wrong.empty()) failFile(ErrorCode::invalidOption, wrong);
+/// Creates a file with makeFile, from the arguments of a C function.
+template <class Report, class Options>
+tspace_ErrorCode makeFile(ListOf<Options>* listOf,
+                          Result<Report> (*make)(const std::string&, const std::string&, const Options&),
+                          std::string (*toJson)(const report::Outcome<Report>&, ExitCode), const char* input,
+                          const char* output, const char* text, tspace_Bytes* report, tspace_Error* error) noexcept {
+    return atCallBorder(error, {report}, [&] {
+        const std::string from = requiredText(input, "input"), to = requiredText(output, "output");
+        Options chosen;
+        readOptionsOf(listOf, text, chosen);
+        makeFile(make, toJson, from, to, chosen, report);
+    });
 }
 
-void readGenerateOptions(const char* text, GenerateOptions& options) {
-    readTogether(options::generateOptions(options), text, options);
+/// Calls make(), whose output is returned in `output` instead of a file.
+template <class Options, class Make>
+void makeBytes(Options& options, const Make& make, tspace_Bytes* output) {
+    GrowingBytes bytes;
+    options.sink = [&](std::span<const std::uint8_t> part) {
+        bytes.append(part);
+        return true;
+    };
+    make();
+    bytes.giveTo(output);
+}
+
+void requirePointer(const void* pointer, const char* name) {
+    if (pointer == nullptr) failFile(ErrorCode::nullData, std::string(name) + " is null");
 }
 
 void generate(const std::string& input, const std::string& output, const GenerateOptions& options, tspace_Bytes* json) {
@@ -89,11 +148,6 @@ void generate(const std::string& input, const std::string& output, const Generat
     giveOutcome(
         outcome, [&] { return generateFile(input, output, options); },
         [&] { return report::generateJson({outcome}, ExitCode::done, outcome.seconds); }, json);
-}
-
-void readCheckOptions(const char* text, options::CheckRequest& request) {
-    options::Given given;
-    readOptions(options::checkOptions(request), text, given);
 }
 
 void check(const std::string& input, const options::CheckRequest& request, tspace_Bytes* json) {
@@ -104,31 +158,16 @@ void check(const std::string& input, const options::CheckRequest& request, tspac
     giveReport(report::checkJson({outcome}, exit_code, request.fail_on), json);
 }
 
-void readInspectOptions(const char* text, FileOptions& options) {
-    options::Given given;
-    readOptions(options::inspectOptions(options), text, given);
-}
-
 void inspect(const std::string& input, const FileOptions& options, tspace_Bytes* json) {
     const report::InspectOutcome outcome{.input = input, .result = inspectFile(input, options)};
     throwError(outcome.result);
     giveReport(report::inspectJson({outcome}, ExitCode::done), json);
 }
 
-void readIdentifyOptions(const char* text, IdentifyOptions& options) {
-    options::Given given;
-    readOptions(options::identifyOptions(options), text, given);
-}
-
 void identify(const std::string& input, const IdentifyOptions& options, tspace_Bytes* json) {
     const report::IdentifyOutcome outcome{.input = input, .result = identifyFile(input, options)};
     throwError(outcome.result);
     giveReport(report::identifyJson({outcome}, ExitCode::done), json);
-}
-
-void readDiffOptions(const char* text, options::DiffRequest& request) {
-    options::Given given;
-    readOptions(options::diffOptions(request), text, given);
 }
 
 void diff(const std::string& a, const std::string& b, const options::DiffRequest& request, tspace_Bytes* json) {
@@ -138,38 +177,6 @@ void diff(const std::string& a, const std::string& b, const options::DiffRequest
     giveReport(report::diffJson(a, b, request.tolerance_deg, result, exit_code), json);
 }
 
-void readConvertMapOptions(const char* text, ConvertMapFileOptions& options) {
-    options.execution.thread_count = 1;
-    readTogether(options::convertMapOptions(options), text, options);
-}
-
-void readHeightToNormalOptions(const char* text, HeightToNormalFileOptions& options) {
-    options::Given given;
-    options.execution.thread_count = 1;
-    readOptions(options::heightToNormalOptions(options), text, given);
-}
-
-void readCompressMapOptions(const char* text, CompressMapFileOptions& options) {
-    options::Given given;
-    options.execution.thread_count = 1;
-    readOptions(options::compressMapOptions(options), text, given);
-}
-
-void readFlipGreenOptions(const char* text, FlipGreenOptions& options) {
-    options::Given given;
-    readOptions(options::flipGreenOptions(options), text, given);
-}
-
-void readBakeOptions(const char* text, BakeFileOptions& options) {
-    options::Given given;
-    readOptions(options::bakeOptions(options), text, given);
-}
-
-void readFinishOptions(const char* text, FinishOptions& options) {
-    options::Given given;
-    readOptions(options::finishOptions(options), text, given);
-}
-
 }  // namespace
 
 tspace_ErrorCode tspace_generateFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
@@ -177,7 +184,7 @@ tspace_ErrorCode tspace_generateFile(const char* input, const char* output, cons
     return atCallBorder(error, {report}, [&] {
         const std::string from = requiredText(input, "input"), to = requiredText(output, "output");
         GenerateOptions chosen;
-        readGenerateOptions(options, chosen);
+        readOptionsOf(options::generateOptions, options, chosen);
         generate(from, to, chosen, report);
     });
 }
@@ -186,19 +193,14 @@ tspace_ErrorCode tspace::c_files::generateBytes(const tspace_Model* model, const
                                                 const Progress& progress, tspace_Bytes* output, tspace_Bytes* report,
                                                 tspace_Error* error) noexcept {
     return atCallBorder(error, {output, report}, [&] {
-        if (output == nullptr) failFile(ErrorCode::nullData, "output is null");
+        requirePointer(output, "output");
         GenerateOptions chosen;
         openModel(model, chosen.file);
-        readGenerateOptions(options, chosen);
+        readOptionsOf(options::generateOptions, options, chosen);
         chosen.progress = progress;
-        GrowingBytes bytes;
-        chosen.sink = [&](std::span<const std::uint8_t> part) {
-            bytes.append(part);
-            return true;
-        };
         const std::string name = nameOf(*model);
-        generate(name, withoutEnding(name) + ".glb", chosen, report);
-        bytes.giveTo(output);
+        makeBytes(
+            chosen, [&] { generate(name, withoutEnding(name) + ".glb", chosen, report); }, output);
     });
 }
 
@@ -209,23 +211,16 @@ tspace_ErrorCode tspace_generateBytes(const tspace_Model* model, const char* opt
 
 tspace_ErrorCode tspace_checkFile(const char* input, const char* options, tspace_Bytes* report,
                                   tspace_Error* error) noexcept {
-    return atCallBorder(error, {report}, [&] {
-        const std::string from = requiredText(input, "input");
-        options::CheckRequest request;
-        readCheckOptions(options, request);
-        check(from, request, report);
-    });
+    return reportOnFile(options::checkOptions, check, input, options, report, error);
 }
 
 tspace_ErrorCode tspace::c_files::checkBytes(const tspace_Model* model, const char* options, const Progress& progress,
                                              tspace_Bytes* report, tspace_Error* error) noexcept {
-    return atCallBorder(error, {report}, [&] {
-        options::CheckRequest request;
-        openModel(model, request.options.file);
-        readCheckOptions(options, request);
+    const auto call = [&](const std::string& name, options::CheckRequest& request, tspace_Bytes* json) {
         request.options.progress = progress;
-        check(nameOf(*model), request, report);
-    });
+        check(name, request, json);
+    };
+    return reportOnModel(options::checkOptions, call, model, options, report, error);
 }
 
 tspace_ErrorCode tspace_checkBytes(const tspace_Model* model, const char* options, tspace_Bytes* report,
@@ -235,42 +230,22 @@ tspace_ErrorCode tspace_checkBytes(const tspace_Model* model, const char* option
 
 tspace_ErrorCode tspace_inspectFile(const char* input, const char* options, tspace_Bytes* report,
                                     tspace_Error* error) noexcept {
-    return atCallBorder(error, {report}, [&] {
-        const std::string from = requiredText(input, "input");
-        FileOptions chosen;
-        readInspectOptions(options, chosen);
-        inspect(from, chosen, report);
-    });
+    return reportOnFile(options::inspectOptions, inspect, input, options, report, error);
 }
 
 tspace_ErrorCode tspace_inspectBytes(const tspace_Model* model, const char* options, tspace_Bytes* report,
                                      tspace_Error* error) noexcept {
-    return atCallBorder(error, {report}, [&] {
-        FileOptions chosen;
-        openModel(model, chosen);
-        readInspectOptions(options, chosen);
-        inspect(nameOf(*model), chosen, report);
-    });
+    return reportOnModel(options::inspectOptions, inspect, model, options, report, error);
 }
 
 tspace_ErrorCode tspace_identifyFile(const char* input, const char* options, tspace_Bytes* report,
                                      tspace_Error* error) noexcept {
-    return atCallBorder(error, {report}, [&] {
-        const std::string from = requiredText(input, "input");
-        IdentifyOptions chosen;
-        readIdentifyOptions(options, chosen);
-        identify(from, chosen, report);
-    });
+    return reportOnFile(options::identifyOptions, identify, input, options, report, error);
 }
 
 tspace_ErrorCode tspace_identifyBytes(const tspace_Model* model, const char* options, tspace_Bytes* report,
                                       tspace_Error* error) noexcept {
-    return atCallBorder(error, {report}, [&] {
-        IdentifyOptions chosen;
-        openModel(model, chosen.file);
-        readIdentifyOptions(options, chosen);
-        identify(nameOf(*model), chosen, report);
-    });
+    return reportOnModel(options::identifyOptions, identify, model, options, report, error);
 }
 
 tspace_ErrorCode tspace_diffFiles(const char* a, const char* b, const char* options, tspace_Bytes* report,
@@ -278,7 +253,7 @@ tspace_ErrorCode tspace_diffFiles(const char* a, const char* b, const char* opti
     return atCallBorder(error, {report}, [&] {
         const std::string from_a = requiredText(a, "a"), from_b = requiredText(b, "b");
         options::DiffRequest request;
-        readDiffOptions(options, request);
+        readOptionsOf(options::diffOptions, options, request);
         diff(from_a, from_b, request, report);
     });
 }
@@ -287,7 +262,7 @@ tspace_ErrorCode tspace_diffBytes(const tspace_Model* a, const tspace_Model* b, 
                                   tspace_Bytes* report, tspace_Error* error) noexcept {
     return atCallBorder(error, {report}, [&] {
         options::DiffRequest request;
-        readDiffOptions(options, request);
+        readOptionsOf(options::diffOptions, options, request);
         FileOptions& file = request.options.file;
         FileOptions& file_b = request.options.file_b.emplace(file);
         openModel(a, file);
@@ -298,59 +273,40 @@ tspace_ErrorCode tspace_diffBytes(const tspace_Model* a, const tspace_Model* b, 
 
 tspace_ErrorCode tspace_flipGreenFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
                                       tspace_Error* error) noexcept {
-    return atCallBorder(error, {report}, [&] {
-        const std::string from = requiredText(input, "input"), to = requiredText(output, "output");
-        FlipGreenOptions chosen;
-        readFlipGreenOptions(options, chosen);
-        makeFile(flipGreenFile, report::flipGreenJson, from, to, chosen, report);
-    });
+    return makeFile(options::flipGreenOptions, flipGreenFile, report::flipGreenJson, input, output, options, report,
+                    error);
 }
 
 tspace_ErrorCode tspace_convertMapFile(const char* input, const char* output, const char* options, tspace_Bytes* report,
                                        tspace_Error* error) noexcept {
-    return atCallBorder(error, {report}, [&] {
-        const std::string from = requiredText(input, "input"), to = requiredText(output, "output");
-        ConvertMapFileOptions chosen;
-        readConvertMapOptions(options, chosen);
-        makeFile(convertMapFile, report::convertMapJson, from, to, chosen, report);
-    });
+    return makeFile(options::convertMapOptions, convertMapFile, report::convertMapJson, input, output, options, report,
+                    error);
 }
 
 tspace_ErrorCode tspace_heightToNormalFile(const char* input, const char* output, const char* options,
                                            tspace_Bytes* report, tspace_Error* error) noexcept {
-    return atCallBorder(error, {report}, [&] {
-        const std::string from = requiredText(input, "input"), to = requiredText(output, "output");
-        HeightToNormalFileOptions chosen;
-        readHeightToNormalOptions(options, chosen);
-        makeFile(heightToNormalFile, report::heightToNormalJson, from, to, chosen, report);
-    });
+    return makeFile(options::heightToNormalOptions, heightToNormalFile, report::heightToNormalJson, input, output,
+                    options, report, error);
 }
 
 tspace_ErrorCode tspace_compressMapFile(const char* input, const char* output, const char* options,
                                         tspace_Bytes* report, tspace_Error* error) noexcept {
-    return atCallBorder(error, {report}, [&] {
-        const std::string from = requiredText(input, "input"), to = requiredText(output, "output");
-        CompressMapFileOptions chosen;
-        readCompressMapOptions(options, chosen);
-        makeFile(compressMapFile, report::compressMapJson, from, to, chosen, report);
-    });
+    return makeFile(options::compressMapOptions, compressMapFile, report::compressMapJson, input, output, options,
+                    report, error);
 }
 
 tspace_ErrorCode tspace_compressMapBytes(const uint8_t* data, size_t size, const char* options, tspace_Bytes* output,
                                          tspace_Bytes* report, tspace_Error* error) noexcept {
     return atCallBorder(error, {output, report}, [&] {
-        if (data == nullptr) failFile(ErrorCode::nullData, "data is null");
-        if (output == nullptr) failFile(ErrorCode::nullData, "output is null");
+        requirePointer(data, "data");
+        requirePointer(output, "output");
         CompressMapFileOptions chosen;
-        readCompressMapOptions(options, chosen);
+        readOptionsOf(options::compressMapOptions, options, chosen);
         chosen.content = {data, size};
-        GrowingBytes bytes;
-        chosen.sink = [&](std::span<const std::uint8_t> part) {
-            bytes.append(part);
-            return true;
+        const auto make = [&] {
+            makeFile(compressMapFile, report::compressMapJson, "map", "map.ktx2", chosen, report);
         };
-        makeFile(compressMapFile, report::compressMapJson, "map", "map.ktx2", chosen, report);
-        bytes.giveTo(output);
+        makeBytes(chosen, make, output);
     });
 }
 
@@ -360,7 +316,7 @@ tspace_ErrorCode tspace_bakeFile(const char* low, const char* high, const char* 
         const std::string from = requiredText(low, "low"), seen = requiredText(high, "high");
         const std::string to = requiredText(output, "output");
         BakeFileOptions chosen;
-        readBakeOptions(options, chosen);
+        readOptionsOf(options::bakeOptions, options, chosen);
         report::Outcome<BakeFileReport> outcome{.input = from, .output = to};
         giveOutcome(
             outcome, [&] { return bakeFile(from, seen, to, chosen); },
@@ -373,7 +329,7 @@ tspace_ErrorCode tspace_finishFile(const char* input, const char* output, const 
     return atCallBorder(error, {report}, [&] {
         const std::string from = requiredText(input, "input"), to = requiredText(output, "output");
         FinishOptions chosen;
-        readFinishOptions(options, chosen);
+        readOptionsOf(options::finishOptions, options, chosen);
         report::Outcome<FinishReport> outcome{.input = from, .output = to};
         giveOutcome(
             outcome, [&] { return finishFile(from, to, chosen); },
@@ -384,10 +340,10 @@ tspace_ErrorCode tspace_finishFile(const char* input, const char* output, const 
 tspace_ErrorCode tspace_flipGreenBytes(const uint8_t* data, size_t size, const char* options, tspace_Bytes* output,
                                        tspace_Bytes* report, tspace_Error* error) noexcept {
     return atCallBorder(error, {output, report}, [&] {
-        if (data == nullptr) failFile(ErrorCode::nullData, "data is null");
-        if (output == nullptr) failFile(ErrorCode::nullData, "output is null");
+        requirePointer(data, "data");
+        requirePointer(output, "output");
         FlipGreenOptions chosen;
-        readFlipGreenOptions(options, chosen);
+        readOptionsOf(options::flipGreenOptions, options, chosen);
         FlippedImage flipped = valueOrThrow(flipGreen({data, size}, chosen));
         report::Outcome<FlipGreenReport> outcome{.is_dry_run = chosen.dry_run};
         outcome.result = std::move(flipped.report);
