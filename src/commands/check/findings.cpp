@@ -22,55 +22,6 @@ const char* severityName(Severity severity) {
     return "";
 }
 
-const char* findingView(FindingCode code) {
-    switch (code) {
-        case FindingCode::signsNotOne:
-        case FindingCode::signsMixed:
-        case FindingCode::signsInverted:
-        case FindingCode::signsWrong:
-        case FindingCode::mirroredSeamAveraged:
-            return "sign";
-        case FindingCode::uvsMissing:
-        case FindingCode::uvsNotFinite:
-        case FindingCode::uvsDegenerate:
-            return "uv";
-        case FindingCode::normalsMissing:
-        case FindingCode::normalsNotFinite:
-        case FindingCode::normalsNotUnit:
-        case FindingCode::normalsAgainstWinding:
-        case FindingCode::normalSeam:
-        case FindingCode::normalsFarFromFaces:
-        case FindingCode::positionsNoisy:
-            return "normals";
-        case FindingCode::tangentsNotFinite:
-        case FindingCode::tangentsNotUnit:
-        case FindingCode::tangentsNotOrthogonal:
-        case FindingCode::uvSeamAveraged:
-        case FindingCode::directionsWrong:
-        case FindingCode::uvSetWrong:
-        case FindingCode::textureTransformIgnored:
-        case FindingCode::splitFramesDiffer:
-        case FindingCode::positionsRounded:
-            return "error";
-        case FindingCode::greenFlipped:
-        case FindingCode::greenMixed:
-        case FindingCode::normalMapTwoChannels:
-        case FindingCode::normalMapUnsigned:
-        case FindingCode::normalMapChannels:
-        case FindingCode::normalMapIsSrgb:
-        case FindingCode::normalMapInObjectSpace:
-        case FindingCode::normalMapIsHeight:
-        case FindingCode::normalMapScale:
-        case FindingCode::normalMapIsPicture:
-            return "mapped";
-        case FindingCode::tangentsMissing:
-        case FindingCode::tangentsIgnored:
-            return "lit";
-        default:
-            return "";
-    }
-}
-
 Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message) {
     Finding finding;
     finding.code = code;
