@@ -128,6 +128,14 @@ std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& ke
     return maps;
 }
 
+Bytes rewriteJudgedMap(const Scene& scene, const GenerateOptions& options, JudgedMap& map) {
+    const std::string why_not_flipped = map.report.reason;
+    const ByteSpan image = map.flipped.empty() ? ByteSpan(scene.images[map.image].bytes) : ByteSpan(map.flipped);
+    Bytes made = rewriteMap(scene, image, options, map);
+    if (made.empty() && (map.report.flipped || !why_not_flipped.empty())) map.report.reason = why_not_flipped;
+    return made;
+}
+
 }  // namespace tspace
 
 namespace tspace::gltf {
@@ -286,12 +294,8 @@ void rewriteInPlace(Document& document, const Scene& scene, const GenerateOption
         if (!map.report.flipped) map.report.reason = "the same map also exists in another format";
         return;
     }
-    const std::string why_not_flipped = map.report.reason;
-    Bytes mended = rewriteMap(
-        scene, map.flipped.empty() ? ByteSpan(scene.images[map.image].bytes) : ByteSpan(map.flipped), options, map);
+    Bytes mended = rewriteJudgedMap(scene, options, map);
     if (!mended.empty()) flips.mended[map.image] = std::move(mended);
-    if (!map.report.mended && map.report.flipped) map.report.reason.clear();
-    if (!map.report.mended && !why_not_flipped.empty()) map.report.reason = why_not_flipped;
 }
 
 }  // namespace

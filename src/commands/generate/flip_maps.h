@@ -50,6 +50,10 @@ std::vector<JudgedMap> judgeMaps(const Scene& scene, const std::vector<bool>& ke
 /// describes the former contents. Throws FileError.
 Bytes rewriteMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options, JudgedMap& map);
 
+/// Calls rewriteMap() with the inverted image if there is one, otherwise with the image of the scene. If the image is
+/// not rewritten, the reason is the one for which green was not inverted, if it was to be inverted.
+Bytes rewriteJudgedMap(const Scene& scene, const GenerateOptions& options, JudgedMap& map);
+
 struct ConvertedHeights {
     /// True if the image is gray, or cannot be decoded. Other images are treated as normal maps.
     bool is_height_map = false;

@@ -104,14 +104,7 @@ std::vector<NormalMapReport> prepareMaps(std::span<const ObjPrimitive> primitive
     for (JudgedMap& map : maps) {
         if (textures[map.image] == nullptr) continue;
         Bytes bytes;
-        if (options.maps.mend) {
-            const std::string why_not_flipped = map.report.reason;
-            const ByteSpan source =
-                map.flipped.empty() ? ByteSpan(scene.images[map.image].bytes) : ByteSpan(map.flipped);
-            bytes = rewriteMap(scene, source, options, map);
-            if (bytes.empty() && map.report.flipped) map.report.reason.clear();
-            if (bytes.empty() && !why_not_flipped.empty()) map.report.reason = why_not_flipped;
-        }
+        if (options.maps.mend) bytes = rewriteJudgedMap(scene, options, map);
         if (bytes.empty()) bytes = std::move(map.flipped);
         reports.push_back(std::move(map.report));
         if (!bytes.empty()) made.emplace_back(textures[map.image]->path(), std::move(bytes));
