@@ -13,13 +13,7 @@
 namespace tspace::tool {
 namespace {
 
-struct CompressMapArguments {
-    std::string input = {};
-    std::string output = {};
-    CompressMapFileOptions options = {};
-    bool json = false;
-    bool quiet = false;
-};
+using CompressMapArguments = ImageArguments<CompressMapFileOptions>;
 
 ExitCode runCompressMap(const CompressMapArguments& arguments) {
     // The first level represents a folder of PNGs.
@@ -30,15 +24,7 @@ ExitCode runCompressMap(const CompressMapArguments& arguments) {
     const Result<Done> fit =
         prepareOutputs({fileOf(arguments.output, arguments.input), fileOf(wanted.roughness_output, wanted.roughness)},
                        {arguments.input, wanted.roughness}, wanted.dry_run);
-    if (!fit) return printUsageError(fit.error().message + "; name another file");
-    if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
-    const auto make = [&] {
-        return callOnImage(arguments.input, arguments.output, arguments.options.file.memory_limit_bytes,
-                           arguments.options, [&](const CompressMapFileOptions& options) {
-                               return compressMapFile(arguments.input, arguments.output, options);
-                           });
-    };
-    return makeAndPrint(arguments, make, report::compressMapJson, report::compressMapText);
+    return makeFromImage(arguments, fit, compressMapFile, report::compressMapJson, report::compressMapText);
 }
 
 }  // namespace
@@ -61,16 +47,10 @@ Command compressMapCommand() {
         .examples = {"tspace compress-map normal.png -o normal.ktx2", "tspace compress-map normal.exr -o normal.dds",
                      "tspace compress-map normal.png -o normal.ktx2 --roughness orm.png -o2 orm.ktx2"},
     };
-    const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input, InputKind::image,
-                               "A normal map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin."));
-    Option output =
-        fileOption("-o, --output", "OUT", arguments.output,
-                   "Output file: .ktx2 or .dds, or a folder of PNGs (a name that ends in /); '-': KTX2 to stdout.");
-    output.is_required = true;
-    command.add(group, output);
-    command.add(compressMapOptions(arguments.options));
-    addReporting(command, arguments.json, arguments.quiet);
+    addImageArguments(command, arguments, InputKind::image,
+                      "A normal map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin.",
+                      "Output file: .ktx2 or .dds, or a folder of PNGs (a name that ends in /); '-': KTX2 to stdout.",
+                      compressMapOptions(arguments.options));
     command.run = [owned] { return runCompressMap(*owned); };
     return command;
 }

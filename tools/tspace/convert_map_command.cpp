@@ -13,29 +13,18 @@
 namespace tspace::tool {
 namespace {
 
-struct ConvertMapArguments {
-    std::string input = {};
-    std::string output = {};
-    ConvertMapFileOptions options = {};
-    bool json = false;
-    bool quiet = false;
-};
+using ConvertMapArguments = ImageArguments<ConvertMapFileOptions>;
 
 ExitCode runConvertMap(const ConvertMapArguments& arguments) {
     const Result<Done> fit =
         prepareOutputs({arguments.output}, {arguments.input, arguments.options.mesh, arguments.options.to_mesh},
                        arguments.options.dry_run);
-    if (!fit) return printUsageError(fit.error().message + "; name another file");
-    if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
-    const auto make = [&] {
-        return callOnImage(arguments.input, arguments.output, arguments.options.file.memory_limit_bytes,
-                           arguments.options, [&](ConvertMapFileOptions options) {
-                               options.progress = progressOf(arguments.input);
-                               return convertMapFile(arguments.input, arguments.output, options);
-                           });
+    const auto convert = [](const std::string& input, const std::string& output, ConvertMapFileOptions options) {
+        options.progress = progressOf(input);
+        return convertMapFile(input, output, options);
     };
-    return makeAndPrint(arguments, make, report::convertMapJson,
-                        [&](const auto& outcome) { return report::convertMapText(outcome, arguments.options); });
+    return makeFromImage(arguments, fit, convert, report::convertMapJson,
+                         [&](const auto& outcome) { return report::convertMapText(outcome, arguments.options); });
 }
 
 }  // namespace
@@ -56,16 +45,10 @@ Command convertMapCommand() {
                      "tspace convert-map normal.png --flip-green --bits 8 -o normal-dx.png"},
         .finish = [&arguments](const Given& given) { return finish(given, arguments.options); },
     };
-    const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input, InputKind::image,
-                               "A normal map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin."));
-    Option output = fileOption(
-        "-o, --output", "OUT", arguments.output,
-        "Output file: .png, .exr or .tga (8 bits), or .ktx2 or .dds (BC5 with all mip levels); '-': PNG to stdout.");
-    output.is_required = true;
-    command.add(group, output);
-    command.add(convertMapOptions(arguments.options));
-    addReporting(command, arguments.json, arguments.quiet);
+    addImageArguments(
+        command, arguments, InputKind::image, "A normal map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin.",
+        "Output file: .png, .exr or .tga (8 bits), or .ktx2 or .dds (BC5 with all mip levels); '-': PNG to stdout.",
+        convertMapOptions(arguments.options));
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return runConvertMap(*owned);

@@ -13,13 +13,8 @@
 namespace tspace::tool {
 namespace {
 
-struct FlipGreenArguments {
-    std::string input = {};
-    std::string output = {};  ///< equal to the input if it is overwritten
-    bool in_place = false;
-    FlipGreenOptions options = {};
-    bool json = false;
-    bool quiet = false;
+struct FlipGreenArguments : ImageArguments<FlipGreenOptions> {
+    bool in_place = false;  ///< `output` is the input
 };
 
 std::string finish(FlipGreenArguments& arguments) {

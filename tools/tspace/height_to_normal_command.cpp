@@ -13,27 +13,13 @@
 namespace tspace::tool {
 namespace {
 
-struct HeightToNormalArguments {
-    std::string input = {};
-    std::string output = {};
-    HeightToNormalFileOptions options = {};
-    bool json = false;
-    bool quiet = false;
-};
+using HeightToNormalArguments = ImageArguments<HeightToNormalFileOptions>;
 
 ExitCode runHeightToNormal(const HeightToNormalArguments& arguments) {
     const Result<Done> fit =
         prepareOutputs({arguments.output}, {arguments.input, arguments.options.mesh}, arguments.options.dry_run);
-    if (!fit) return printUsageError(fit.error().message + "; name another file");
-    if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
-    const auto make = [&] {
-        return callOnImage(arguments.input, arguments.output, arguments.options.file.memory_limit_bytes,
-                           arguments.options, [&](const HeightToNormalFileOptions& options) {
-                               return heightToNormalFile(arguments.input, arguments.output, options);
-                           });
-    };
-    return makeAndPrint(arguments, make, report::heightToNormalJson,
-                        [&](const auto& outcome) { return report::heightToNormalText(outcome, arguments.options); });
+    return makeFromImage(arguments, fit, heightToNormalFile, report::heightToNormalJson,
+                         [&](const auto& outcome) { return report::heightToNormalText(outcome, arguments.options); });
 }
 
 }  // namespace
@@ -53,15 +39,11 @@ Command heightToNormalCommand() {
                      "tspace height-to-normal height.png -o normal.png --mesh wall.glb --strength 0.02",
                      "tspace height-to-normal height.png -o normal-dx.png --convention directx --bits 8"},
     };
-    const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input, InputKind::image,
-                               "A height map: PNG (8 or 16 bits), JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin. "
-                               "The color channels are averaged."));
-    Option output = fileOption("-o, --output", "OUT", arguments.output, "Output file: .png; '-': to stdout.");
-    output.is_required = true;
-    command.add(group, output);
-    command.add(heightToNormalOptions(arguments.options));
-    addReporting(command, arguments.json, arguments.quiet);
+    addImageArguments(
+        command, arguments, InputKind::image,
+        "A height map: PNG (8 or 16 bits), JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin. The color channels are "
+        "averaged.",
+        "Output file: .png; '-': to stdout.", heightToNormalOptions(arguments.options));
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return runHeightToNormal(*owned);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Common parts of commands that write one image: stdin and stdout as files, and the report at the end. Their arguments
-// must have `input`, `output`, `json`, `quiet` and `options.dry_run`.
+// Common parts of commands that write one image: their arguments, stdin and stdout as files, and the report at the end.
 #pragma once
 
 #include <cstdio>
@@ -10,7 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "command_table.h"
 #include "commands/shared/report.h"
+#include "common_options.h"
 #include "console.h"
 #include "report_outputs.h"
 #include "standard_input.h"
@@ -21,8 +22,29 @@ namespace tspace::tool {
 inline constexpr const char* kNoTextForATerminal =
     "an image cannot be printed on a terminal; redirect stdout to a file or a pipe";
 
-template <class Arguments>
-bool goesToTerminal(const Arguments& arguments) {
+template <class Options>
+struct ImageArguments {
+    std::string input = {};
+    std::string output = {};
+    Options options = {};
+    bool json = false;
+    bool quiet = false;
+};
+
+/// Adds the operand IN, the required option -o, `options`, and reporting.
+template <class Options>
+void addImageArguments(Command& command, ImageArguments<Options>& arguments, InputKind reads, const char* input_help,
+                       const char* output_help, OptionList options) {
+    command.add(kInputAndOutput, operand("IN", arguments.input, reads, input_help));
+    Option output = fileOption("-o, --output", "OUT", arguments.output, output_help);
+    output.is_required = true;
+    command.add(kInputAndOutput, std::move(output));
+    command.add(std::move(options));
+    addReporting(command, arguments.json, arguments.quiet);
+}
+
+template <class Options>
+bool goesToTerminal(const ImageArguments<Options>& arguments) {
     return arguments.output == "-" && !arguments.options.dry_run && isTerminal(stdout);
 }
 
@@ -57,8 +79,8 @@ auto callOnImage(const std::string& input, const std::string& output, std::uint6
 /// Writes the image with make(), which returns a Result. Then prints the error, or the report: as text by
 /// textOf(outcome), or as JSON by jsonOf(outcome, exit_code). The report goes to stderr if the image is written to
 /// stdout.
-template <class Arguments, class Make, class JsonOf, class TextOf>
-ExitCode makeAndPrint(const Arguments& arguments, const Make& make, JsonOf jsonOf, TextOf textOf) {
+template <class Options, class Make, class JsonOf, class TextOf>
+ExitCode makeAndPrint(const ImageArguments<Options>& arguments, const Make& make, JsonOf jsonOf, TextOf textOf) {
     HeldOutputs outputs;
     using Value = std::remove_cvref_t<decltype(*make())>;
     report::Outcome<Value> outcome{.input = arguments.input,
@@ -76,6 +98,20 @@ ExitCode makeAndPrint(const Arguments& arguments, const Make& make, JsonOf jsonO
         }
         return report;
     });
+}
+
+/// Makes the image with call(input, output, options), and prints the report. `fit`: whether the outputs can be written.
+template <class Options, class Call, class JsonOf, class TextOf>
+ExitCode makeFromImage(const ImageArguments<Options>& arguments, const Result<Done>& fit, const Call& call,
+                       JsonOf jsonOf, TextOf textOf) {
+    if (!fit) return printUsageError(fit.error().message + "; name another file");
+    if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);
+    const auto make = [&] {
+        return callOnImage(arguments.input, arguments.output, arguments.options.file.memory_limit_bytes,
+                           arguments.options,
+                           [&](const Options& options) { return call(arguments.input, arguments.output, options); });
+    };
+    return makeAndPrint(arguments, make, jsonOf, textOf);
 }
 
 }  // namespace tspace::tool

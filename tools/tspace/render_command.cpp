@@ -14,13 +14,7 @@
 namespace tspace::tool {
 namespace {
 
-struct RenderArguments {
-    std::string input = {};
-    std::string output = {};
-    RenderOptions options = {};
-    bool json = false;
-    bool quiet = false;
-};
+using RenderArguments = ImageArguments<RenderOptions>;
 
 Result<RenderReport> render(const RenderArguments& arguments) {
     RenderOptions options = arguments.options;
@@ -69,13 +63,8 @@ Command renderCommand() {
             return arguments.options.samples == 0 ? "--samples must be from 1 to 4" : "";
         },
     };
-    const char* group = kInputAndOutput;
-    command.add(group, operand("IN", arguments.input, InputKind::model, "A model file; '-': a GLB from stdin."));
-    Option& output =
-        command.add(group, fileOption("-o, --output", "OUT", arguments.output, "Output file: .png; '-': to stdout."));
-    output.is_required = true;
-    command.add(renderOptions(arguments.options));
-    addReporting(command, arguments.json, arguments.quiet);
+    addImageArguments(command, arguments, InputKind::model, "A model file; '-': a GLB from stdin.",
+                      "Output file: .png; '-': to stdout.", renderOptions(arguments.options));
     command.run = [owned] {
         owned->options.file.importer = importerPath();
         return runRender(*owned);
