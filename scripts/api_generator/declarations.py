@@ -28,7 +28,6 @@ C = re.compile(r"""
     )(?P<behind>\ */\*.*?\*/)?$""", re.X | re.M)
 
 
-
 @dataclasses.dataclass
 class Declaration:
     kind: str  # one of KINDS, or "method"

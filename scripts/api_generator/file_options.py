@@ -67,11 +67,10 @@ def functions(source):
 def python_file_calls(options, source, aliases):
     lines = []
     for function in functions(source):
-        if function.args.kwarg is not None:
-            call = camel(re.sub("_(file|bytes)$", "", function.name))
-            lines += [f"def {function.name}(", *parameters(function), *([] if function.args.kwonlyargs else ["    *,"]),
-                      *(f"    {python_name(option)}: {python_type(option, aliases)} = ...," for option in options[call]),
-                      f") -> {ast.unparse(function.returns)}: ..."]
+        call = camel(re.sub("_(file|bytes)$", "", function.name))
+        lines += [f"def {function.name}(", *parameters(function), *([] if function.args.kwonlyargs else ["    *,"]),
+                  *(f"    {python_name(option)}: {python_type(option, aliases)} = ...," for option in options[call]),
+                  f") -> {ast.unparse(function.returns)}: ..."]
     return lines
 
 

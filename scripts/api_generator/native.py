@@ -11,7 +11,6 @@ CSHARP = {"uint32_t": "uint", "uint64_t": "ulong", "uint8_t": "byte", "size_t": 
           "ConstSpan": "Span"}  # const is dropped from pointers here
 
 
-
 def python_type(kind, model):
     """Returns the type of a pointer: typed for structs, an address for arrays."""
     if kind.result:

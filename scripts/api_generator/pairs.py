@@ -36,7 +36,6 @@ CPP_ALONE = {
     "reports of files have these in their JSON": r"(action|faces|frameFormat|severity|signReading)Name|finding\w+|commandLine",
     "-1 in C": r"NormalOptions::(crease|denoise|weld)_auto",
     "for C++ and the tool": r"removeAbandonedFiles|textureErrorFile|mapErrorFile|readTexel|allMaps",
-    "C has no function that is told of progress": r"Cancelled",
     "the first word of PlanBuffers": r"PlanBuffers::kVersion",
 }
 # C types of fields that are added to sized structs.
