@@ -40,8 +40,9 @@ function morphingMesh() {
   const sphere = new THREE.SphereGeometry(0.8, 36, 24), { position, uv: uvs } = sphere.attributes;
   const positions = Float32Array.from(position.array), target = positions.slice();
   for (let i = 0; i < positions.length; i += 3) {
-    const [x, y, z] = positions.subarray(i, i + 3), angle = Math.atan2(z, x);
-    const change = 0.28 * Math.cos(5 * angle) * (1 - (y / 0.8) ** 2) - 0.1 * (y / 0.8) ** 2;
+    // At the poles `height` is exactly 1, so that their vertices, which have arbitrary angles, stay equal.
+    const [x, y, z] = positions.subarray(i, i + 3), angle = Math.atan2(z, x), height = Math.min(1, (y / 0.8) ** 2);
+    const change = 0.28 * Math.cos(5 * angle) * (1 - height) - 0.1 * height;
     target.set([change * x, change * y, change * z], i);
   }
   return { positions, target, uvs: Float32Array.from(uvs.array, (x, i) => (i % 2 ? 2 * x : 4 * x)), indices: Uint32Array.from(sphere.index.array) };
@@ -137,7 +138,7 @@ async function makeModel(renderer, mesh, name) {
       device.queue.writeBuffer(positions.buffer, 0, pose);
       encode();
     };
-    return { geometry, name, update };
+    return { geometry, name, mesh, update };
   }
   // Vertex shader and tspace morph the same positions by the same weight.
   geometry.setAttribute("delta", new THREE.BufferAttribute(target, 3));
@@ -149,7 +150,7 @@ async function makeModel(renderer, mesh, name) {
     device.queue.writeBuffer(buffer, 0, word);
     encode({ buffer, morph: { count: 1, weights: 0, deltas: 16 } });
   };
-  return { geometry, name, update, positionNode: positionLocal.add(attribute("delta", "vec3").mul(weight)) };
+  return { geometry, name, mesh, update, positionNode: positionLocal.add(attribute("delta", "vec3").mul(weight)) };
 }
 
 async function main() {
@@ -187,7 +188,7 @@ async function main() {
         context.drawImage(renderer.domElement, 0, 0);
       }
     },
-    /** Draws one picture of each view into its canvas, for browsers that cannot show WebGPU, such as headless ones. */
+    /** Draws one picture of each view into its canvas, for browsers that cannot present WebGPU, such as headless ones. */
     async drawStill(time) {
       for (const model of models) model.update(time);
       for (const { scene, context } of views) {
@@ -197,12 +198,19 @@ async function main() {
         context.putImageData(new ImageData(Uint8ClampedArray.from(pixels), SIZE, SIZE), 0, 0);
       }
     },
+    /** Reads the current pose of each model back, four floats per vertex and array, so that a test can compare it with the CPU. */
+    read: () => Promise.all(models.map(async ({ name, mesh, geometry: { attributes } }) => {
+      const arrays = ["position", "normal", "tangent"].map(async (key) => Array.from(new Float32Array(await renderer.getArrayBufferAsync(attributes[key]))));
+      const [positions, normals, tangents] = await Promise.all(arrays);
+      const source = Object.fromEntries(Object.entries(mesh).map(([key, array]) => [key, Array.from(array)]));
+      return { name, mesh: source, positions, normals, tangents };
+    })),
   };
 }
 
 try {
-  const page = await main();
-  const still = new URLSearchParams(location.search).get("time"); // in seconds
+  const page = (window.page = await main());
+  const still = new URLSearchParams(location.search).get("time"); // in seconds: one picture instead of an animation
   if (page && still !== null) await page.drawStill(Number(still));
   else if (page) requestAnimationFrame(function step(milliseconds) {
     page.draw(milliseconds / 1000);

@@ -1,34 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Page of webgpu.test.mjs: computes poses of models with WebGPU and with the module, and compares the results.
-import { generateNormals, makeIndexedFrames, Plan, planBuffers, ready } from "tspace";
+import { ready } from "tspace";
 import { packFrames, ready as packReady, unpackFrames } from "tspace/pack";
 import { GpuFrames } from "tspace/webgpu";
-
-const round = Math.fround;
-const gather = (array, size, sources) => {
-  const made = new array.constructor(sources.length * size);
-  sources.forEach((source, i) => made.set(array.subarray(size * source, size * source + size), size * i));
-  return made;
-};
-
-/** Computes the positions of a pose like the shader: morphed by `weights`, then skinned by `matrices`. */
-function posed({ positions, targets, joints, jointWeights }, weights, matrices) {
-  const moved = positions.slice();
-  weights.forEach((weight, t) => moved.forEach((x, i) => (moved[i] = x + round(weight * targets[t][i]))));
-  if (!matrices) return moved;
-  for (let v = 0; v < positions.length / 3; ++v) {
-    const [x, y, z] = moved.subarray(3 * v, 3 * v + 3), sum = [0, 0, 0];
-    for (let i = 0; i < 4; ++i) {
-      const row = 12 * joints[4 * v + i], weight = jointWeights[4 * v + i];
-      for (let k = 0; k < 3; ++k) {
-        const [a, b, c, d] = matrices.subarray(row + 4 * k, row + 4 * k + 4);
-        sum[k] = round(sum[k] + round(weight * round(round(round(a * x) + round(b * y)) + round(round(c * z) + d))));
-      }
-    }
-    moved.set(sum, 3 * v);
-  }
-  return moved;
-}
+import { compare, expected, posed, prepared } from "../test/planned_poses.mjs";
 
 /** Returns the positions, rotated about y by an angle that increases with x. */
 function bent(positions) {
@@ -48,29 +23,6 @@ const matricesOf = (count) =>
     made.set([c, -s, 0, 0.01 * (joint % 5), s, c, 0, 0, 0, 0, 1, 0], 12 * joint);
     return made;
   }, new Float32Array(12 * count));
-
-/** Returns the mesh with one vertex per result, and its plan. */
-function prepared(mesh, method) {
-  const { positions, uvs, indices } = mesh;
-  const made = makeIndexedFrames({ positions, uvs, indices }, { convention: "gltf", method });
-  const take = (array, size) => array && gather(array, size, made.sourceVertices);
-  const vertices = {
-    positions: take(positions, 3), uvs: take(uvs, 2), normals: made.normals, indices: made.indices,
-    targets: (mesh.targets ?? []).map((target) => take(target, 3)), joints: take(mesh.joints, 4), jointWeights: take(mesh.jointWeights, 4),
-  };
-  const { targets, joints, jointWeights, ...plain } = vertices;
-  const plan = new Plan(plain, { convention: "gltf", method });
-  return { vertices, plain, plan, buffers: planBuffers(plan, { sourceCorners: made.sourceCorners, mesh: plain }), sourceCorners: made.sourceCorners };
-}
-
-/** Computes normals and tangents of each result with the module. */
-function expected({ plain, plan, sourceCorners }, positions) {
-  const corners = generateNormals({ positions, indices: plain.indices });
-  const normals = plain.normals.slice();
-  plain.indices.forEach((vertex, corner) => normals.set(corners.subarray(3 * corner, 3 * corner + 3), 3 * vertex));
-  const used = sourceCorners.map((corner) => (corner === 0xffffffff ? 0 : corner));
-  return { normals, tangents: gather(plan.evaluate({ positions, normals }), 4, used) };
-}
 
 const STORAGE = 0x80, COPY = 0x0c;
 const bufferOf = (device, data, size = data.byteLength) => {
@@ -105,29 +57,8 @@ function deformOf(device, { targets, joints, jointWeights }, weights, matrices) 
   };
 }
 
-const degrees = (a, b, at, to) => {
-  const [x, y, z] = a.subarray(at, at + 3), [u, v, w] = b.subarray(to, to + 3);
-  const cross = Math.hypot(y * w - z * v, z * u - x * w, x * v - y * u);
-  return (Math.atan2(cross, x * u + y * v + z * w) * 180) / Math.PI;
-};
-
-/** Returns the 99th percentile and the maximum of the differences, in degrees. */
-function compare(wanted, found) {
-  const outcome = { results: wanted.normals.length / 3, wrongSigns: 0 };
-  for (const [name, size] of [["tangents", 4], ["normals", 3]]) {
-    const a = wanted[name], b = found[name], list = [];
-    for (let at = 0; at < a.length; at += size) {
-      list.push(degrees(a, b, at, at));
-      if (size === 4 && a[at + 3] !== b[at + 3]) ++outcome.wrongSigns;
-    }
-    list.sort((x, y) => x - y);
-    outcome[name] = { most: list[Math.ceil(0.99 * list.length) - 1], worst: list.at(-1) };
-  }
-  return outcome;
-}
-
 async function comparePose(device, mesh, method) {
-  const made = prepared(mesh, method), { vertices, buffers } = made;
+  const made = prepared(mesh, { convention: "gltf", method }), { vertices, buffers } = made;
   const weights = vertices.targets.map((_, t) => 0.3 + 0.2 * (t % 3)), matrices = vertices.joints && matricesOf(1 + Math.max(...vertices.joints));
   const isPlain = weights.length === 0 && !matrices;
   const given = isPlain ? bent(vertices.positions) : vertices.positions;
