@@ -137,6 +137,7 @@ test("corrupt textures of hostile files cause a message", { skip: noTool }, asyn
       assert.match(await failed(broken), /./);
     }
     for (const sentence of said) assert.match(sentence, /^(it|the KTX2|the image) /);
+    assert.equal(await failed(Buffer.from("no texture")), "it is neither KTX2 nor DDS");
     assert.equal(await failed(astc()), "it is a KTX2 with ASTC data, which this page cannot show; export it as PNG, JPEG or WebP, or as KTX2 with UASTC or ETC1S");
   }, { allowMessages: true });
 });

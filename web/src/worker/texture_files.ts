@@ -15,12 +15,23 @@ async function zstdDecoder(): Promise<ZSTDDecoder> {
   return decoder;
 }
 
-/** Returns whether a KTX2 uses Zstandard, according to its supercompression scheme at byte 44. */
-const isZstd = (file: Uint8Array): boolean => file.length > 48 && file[0] === 0xab && new DataView(file.buffer, file.byteOffset).getUint32(44, true) === 2;
+const startsWith = (file: Uint8Array, text: string): boolean => [...text].every((letter, i) => file[i] === letter.charCodeAt(0));
+const isKtx2 = (file: Uint8Array): boolean => startsWith(file, "\u00abKTX 20");
 
-/** Explains formats that the page cannot read but the tool can, and what to do. Options of the package are omitted. */
-const inWords = (why: string): string =>
-  why.includes("ASTC") ? "it is a KTX2 with ASTC data, which this page cannot show; export it as PNG, JPEG or WebP, or as KTX2 with UASTC or ETC1S" : why.replace(/; use the option .*$/, "");
+/** Returns the 32-bit number at a byte of the header of a KTX2; 0 for other files. */
+const numberAt = (file: Uint8Array, byte: number): number => (file.length > 48 && isKtx2(file) ? new DataView(file.buffer, file.byteOffset).getUint32(byte, true) : 0);
+const isZstd = (file: Uint8Array): boolean => numberAt(file, 44) === 2;
+/** Returns whether a KTX2 has one of Vulkan's formats for ASTC: normalized or of floats. */
+function isAstc(file: Uint8Array): boolean {
+  const format = numberAt(file, 12);
+  return (format >= 157 && format <= 184) || (format >= 1000066000 && format <= 1000066013);
+}
+
+/** Throws for files that the tool can read but this page cannot. */
+function refuse(file: Uint8Array): void {
+  if (!isKtx2(file) && !startsWith(file, "DDS ")) throw new Error("it is neither KTX2 nor DDS");
+  if (isAstc(file)) throw new Error("it is a KTX2 with ASTC data, which this page cannot show; export it as PNG, JPEG or WebP, or as KTX2 with UASTC or ETC1S");
+}
 
 async function unpackersFor(file: Uint8Array) {
   const decoder = isZstd(file) ? await (zstd ??= zstdDecoder()) : null;
@@ -31,15 +42,12 @@ async function unpackersFor(file: Uint8Array) {
 }
 
 export async function decodeTexture(file: Uint8Array<ArrayBuffer>): Promise<TexturePixels> {
+  refuse(file);
   const { readTexture, ready } = await import("tspace/textures"), unpackers = await unpackersFor(file);
   await ready;
-  try {
-    // Decodes like a renderer: a map of two channels keeps blue = 0.
-    const { width, height, rgba } = readTexture(file, { numbers: "uint8", vectors: false, ...unpackers });
-    return { width, height, rgba: rgba as Uint8ClampedArray<ArrayBuffer> };
-  } catch (error) {
-    throw new Error(inWords((error as Error).message));
-  }
+  // Decodes like a renderer: a map of two channels keeps blue = 0.
+  const { width, height, rgba } = readTexture(file, { numbers: "uint8", vectors: false, ...unpackers });
+  return { width, height, rgba: rgba as Uint8ClampedArray<ArrayBuffer> };
 }
 
 const isOpaque = (rgba: ArrayLike<number>, most: number): boolean => {
@@ -58,17 +66,15 @@ function pngFile({ width, height, rgba }: { width: number; height: number; rgba:
 
 /** Converts a normal map to another file: first its channels to glTF's, then green, then the format. */
 export async function convertMapFile({ name, file, reading, to }: Calls["convertMap"]["ask"]): Promise<ConvertedMap> {
+  const isTexture = /\.(ktx2|dds)$/i.test(name);
+  if (isTexture) refuse(file);
   const { compressMap, convertMap, ready } = await import("tspace/textures"), unpackers = await unpackersFor(file);
   await ready;
-  try {
-    const image = /\.(ktx2|dds)$/i.test(name) ? file : await decodeImage(file, mapType(name) as Parameters<typeof decodeImage>[1]);
-    const map = convertMap(image, { ...reading, ...unpackers }), { width, height } = map;
-    const notes = map.howRead ? [`${map.howRead}.`] : [];
-    if (to === "png") return { bytes: pngFile(map), width, height, format: `${map.numbers === "uint16" ? 16 : 8} bits`, notes };
-    const [format, container] = to.split(".") as ["bc5" | "eac-rg11", "ktx2" | "dds"];
-    const { bytes, report } = compressMap(map, { format, container });
-    return { bytes: bytes as Uint8Array<ArrayBuffer>, width, height, format: `${report.format}, ${report.meanErrorDeg.toFixed(2)}° of error on average`, notes: [...notes, ...report.warnings.map((warning) => `${warning}.`)] };
-  } catch (error) {
-    throw new Error(inWords((error as Error).message));
-  }
+  const image = isTexture ? file : await decodeImage(file, mapType(name) as Parameters<typeof decodeImage>[1]);
+  const map = convertMap(image, { ...reading, ...unpackers }), { width, height } = map;
+  const notes = map.howRead ? [`${map.howRead}.`] : [];
+  if (to === "png") return { bytes: pngFile(map), width, height, format: `${map.numbers === "uint16" ? 16 : 8} bits`, notes };
+  const [format, container] = to.split(".") as ["bc5" | "eac-rg11", "ktx2" | "dds"];
+  const { bytes, report } = compressMap(map, { format, container });
+  return { bytes: bytes as Uint8Array<ArrayBuffer>, width, height, format: `${report.format}, ${report.meanErrorDeg.toFixed(2)}° of error on average`, notes: [...notes, ...report.warnings.map((warning) => `${warning}.`)] };
 }
