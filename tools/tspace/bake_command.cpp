@@ -161,10 +161,8 @@ Command bakeCommand() {
     command.add(kReporting,
                 fileOption("--report", "JSON", arguments.report, "Also write the report as JSON to this file."));
     addReporting(command, arguments.json, arguments.quiet);
-    command.run = [owned] {
-        owned->options.file.importer = importerPath();
-        return owned->pairs.empty() ? runBake(*owned) : runPairs(*owned);
-    };
+    command.file = &owned->options.file;
+    command.run = [owned] { return owned->pairs.empty() ? runBake(*owned) : runPairs(*owned); };
     return command;
 }
 

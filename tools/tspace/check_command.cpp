@@ -179,10 +179,8 @@ Command checkCommand() {
     addBatch(command, arguments.batch, false);
     addCheckReporting(command, arguments);
     addReporting(command, arguments.json, arguments.quiet);
-    command.run = [owned] {
-        owned->request.options.file.importer = importerPath();
-        return runCheck(*owned);
-    };
+    command.file = &owned->request.options.file;
+    command.run = [owned] { return runCheck(*owned); };
     return command;
 }
 

@@ -13,6 +13,7 @@
 
 #include "commands/shared/exit_code.h"
 #include "commands/shared/option_table.h"
+#include "tspace/file_options.h"
 
 namespace tspace::tool {
 
@@ -26,6 +27,8 @@ struct Command {
     std::string description = {};            ///< a paragraph of sentences
     std::vector<std::string> examples = {};  ///< complete command lines
     OptionList options = {};
+    /// How the command reads models; null: it reads none. The importer is set before `run`.
+    FileOptions* file = nullptr;
     /// Called after all options are parsed. Returns an error message for an invalid combination of options, or an empty
     /// string.
     std::function<std::string(const Given& given)> finish = {};

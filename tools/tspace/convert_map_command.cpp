@@ -49,10 +49,8 @@ Command convertMapCommand() {
         command, arguments, InputKind::image, "A normal map: PNG, JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin.",
         "Output file: .png, .exr or .tga (8 bits), or .ktx2 or .dds (BC5 with all mip levels); '-': PNG to stdout.",
         convertMapOptions(arguments.options));
-    command.run = [owned] {
-        owned->options.file.importer = importerPath();
-        return runConvertMap(*owned);
-    };
+    command.file = &owned->options.file;
+    command.run = [owned] { return runConvertMap(*owned); };
     return command;
 }
 

@@ -8,7 +8,6 @@
 #include "commands/shared/request.h"
 #include "common_options.h"
 #include "console.h"
-#include "jobs.h"
 #include "output_files.h"
 #include "page_origin.h"
 #include "report_outputs.h"
@@ -86,10 +85,8 @@ Command diffCommand() {
                                        "Write a self-contained HTML report to this file, with a heat map of the angles "
                                        "and pictures of the largest differences."));
     addReporting(command, arguments.json, arguments.quiet);
-    command.run = [owned] {
-        owned->request.options.file.importer = importerPath();
-        return runDiff(*owned);
-    };
+    command.file = &owned->request.options.file;
+    command.run = [owned] { return runDiff(*owned); };
     return command;
 }
 

@@ -112,10 +112,8 @@ Command finishCommand() {
     command.add(kReporting,
                 fileOption("--report", "JSON", arguments.report, "Also write the report as JSON to this file."));
     addReporting(command, arguments.json, arguments.quiet);
-    command.run = [owned] {
-        owned->options.file.importer = importerPath();
-        return runFinish(*owned);
-    };
+    command.file = &owned->options.file;
+    command.run = [owned] { return runFinish(*owned); };
     return command;
 }
 

@@ -260,10 +260,8 @@ Command generateCommand() {
     addBatch(command, arguments.batch, true);
     addReporting(command, arguments.json, arguments.quiet);
     command.keeps_freed_memory = true;
-    command.run = [owned] {
-        owned->options.file.importer = importerPath();
-        return runGenerate(*owned);
-    };
+    command.file = &owned->options.file;
+    command.run = [owned] { return runGenerate(*owned); };
     return command;
 }
 

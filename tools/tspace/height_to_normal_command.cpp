@@ -7,7 +7,6 @@
 #include "commands/shared/request.h"
 #include "common_options.h"
 #include "image_command.h"
-#include "jobs.h"
 #include "output_files.h"
 
 namespace tspace::tool {
@@ -44,10 +43,8 @@ Command heightToNormalCommand() {
         "A height map: PNG (8 or 16 bits), JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin. The color channels are "
         "averaged.",
         "Output file: .png; '-': to stdout.", heightToNormalOptions(arguments.options));
-    command.run = [owned] {
-        owned->options.file.importer = importerPath();
-        return runHeightToNormal(*owned);
-    };
+    command.file = &owned->options.file;
+    command.run = [owned] { return runHeightToNormal(*owned); };
     return command;
 }
 

@@ -61,10 +61,8 @@ Command identifyCommand() {
     command.add(identifyOptions(arguments.options));
     addBatch(command, arguments.batch, false);
     addReporting(command, arguments.json, arguments.quiet);
-    command.run = [owned] {
-        owned->options.file.importer = importerPath();
-        return runIdentify(*owned);
-    };
+    command.file = &owned->options.file;
+    command.run = [owned] { return runIdentify(*owned); };
     return command;
 }
 

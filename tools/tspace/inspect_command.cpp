@@ -56,10 +56,8 @@ Command inspectCommand() {
     command.add(inspectOptions(arguments.file));
     addBatch(command, arguments.batch, false);
     addReporting(command, arguments.json, arguments.quiet);
-    command.run = [owned] {
-        owned->file.importer = importerPath();
-        return runInspect(*owned);
-    };
+    command.file = &owned->file;
+    command.run = [owned] { return runInspect(*owned); };
     return command;
 }
 

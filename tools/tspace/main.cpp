@@ -19,6 +19,7 @@
 #include "help.h"
 #include "input_kinds.h"
 #include "interrupt.h"
+#include "jobs.h"
 #include "model/io/atomic_output.h"
 #include "page_origin.h"
 #include "read_command_line.h"
@@ -82,6 +83,7 @@ ExitCode run(int argc, char** argv) {
     command->keeps_freed_memory ? keepFreedMemory() : returnFreedMemory();
     if (!given.has("--quiet")) progressLine().start();
     ExitCode exit_code = command->prepare ? command->prepare() : ExitCode::done;
+    if (command->file != nullptr) command->file->importer = importerPath();
     if (exit_code == ExitCode::done) exit_code = command->run();
     progressLine().stop();
     return exit_code;

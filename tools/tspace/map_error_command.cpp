@@ -116,10 +116,8 @@ Command mapErrorCommand() {
         if (owned->low.empty()) return std::string("LOW is missing");
         return std::string(owned->high.empty() ? "--high is missing" : "");
     };
-    command.run = [owned] {
-        owned->options.file.importer = importerPath();
-        return runMapError(*owned);
-    };
+    command.file = &owned->options.file;
+    command.run = [owned] { return runMapError(*owned); };
     return command;
 }
 

@@ -65,10 +65,8 @@ Command renderCommand() {
     };
     addImageArguments(command, arguments, InputKind::model, "A model file; '-': a GLB from stdin.",
                       "Output file: .png; '-': to stdout.", renderOptions(arguments.options));
-    command.run = [owned] {
-        owned->options.file.importer = importerPath();
-        return runRender(*owned);
-    };
+    command.file = &owned->options.file;
+    command.run = [owned] { return runRender(*owned); };
     return command;
 }
 
