@@ -262,8 +262,9 @@ struct MapSide {
 struct ConvertMapOptions {
     /// 8 or 16: texels that change are rounded to n / (2^bits - 1), n an integer. 32: not rounded.
     unsigned bits = 16;
-    /// With 8 bits and three channels: range of lengths for converted vectors whose old length is in this range. Other
-    /// vectors, and vectors that differ from an adjacent one by over 9 degrees, keep their length within a twentieth.
+    /// With 8 bits and three channels: allowed lengths of converted vectors. Applies to vectors whose length in the
+    /// input is in this range. All others, and vectors that differ from an adjacent one by over 9 degrees, keep their
+    /// length to within 5 %.
     TexelLengths lengths = TexelLengths::even;
     /// Width of the padding around triangles, in texels, that is converted with the nearest triangle. 0: only texels
     /// that bilinear filtering reads.
@@ -421,9 +422,10 @@ struct BakedMap {
     std::vector<bool> overlaps = {};        ///< one flag per texel: its center is inside several triangles
     std::uint64_t hit_count = 0, missed_count = 0, padding_count = 0;  ///< numbers of texels
     std::uint64_t overlap_count = 0;  ///< texels whose center is inside several triangles
-    /// Overlapping texels whose triangles require normals over 2 degrees apart; MapOverlap selects the result. Angles:
-    /// between the normals of two triangles at a texel, or between the normal of the selected UV piece and the mean of
-    /// the others.
+    /// Overlapping texels whose triangles require normals over 2 degrees apart; MapOverlap selects the result.
+    /// `conflict_mean_deg` and `conflict_max_deg`: with MapOverlap::mean, the angle between the normals of two
+    /// triangles at a texel; otherwise the angle between the normal of the selected UV piece and the mean of the
+    /// others.
     std::uint64_t conflict_count = 0;
     double conflict_mean_deg = 0, conflict_max_deg = 0;
     std::uint64_t degenerate_uv_count = 0;  ///< triangles that have no UV area or UVs that are not finite: not drawn

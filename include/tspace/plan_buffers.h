@@ -25,8 +25,8 @@ struct PlanBufferOptions {
     /// Mesh of the plan, for computing normals from positions in the shader. Corners with equal positions share
     /// normals. Without vertices, the default, a pose provides its normals.
     MeshView mesh = {};
-    /// Computation of the normals of `mesh`: every weighting except NormalWeighting::best. `denoise` must be 0. Only
-    /// lengyel uses the convention: other plans have their own.
+    /// Options for the normals of `mesh`. Not supported: NormalWeighting::best, and `denoise` other than 0.
+    /// `normals.convention` is used only for a plan of lengyel; plans of other methods store their convention.
     NormalOptions normals = {};
 };
 

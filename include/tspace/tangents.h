@@ -115,9 +115,10 @@ struct TangentReport {
     std::uint64_t group_count = 0;                ///< groups: sets of corners that share one tangent
     std::uint64_t default_corner_count = 0;       ///< outputs without a tangent from any face: default of the method
     std::uint64_t not_finite_count = 0;           ///< outputs whose tangent has a NaN or infinity
-    /// `mikktspace`: the input would drive the reference into quadratic time, so its last step was skipped. Either its
-    /// sort (with Pairing::reference): the corrected pairing was used for the last bucket; only crafted inputs cause
-    /// this. Or its angular test: a group of more than 4096 faces whose tangents spread too far was not split.
+    /// `mikktspace`: the input would drive the reference into quadratic time, so one of its steps was skipped. This is
+    /// either the sort (with Pairing::reference; the corrected pairing was used for the last bucket; only crafted
+    /// inputs cause this), or the angular test (a group of more than 4096 faces whose tangents spread too far was not
+    /// split).
     bool reference_order_abandoned = false;
 };
 

@@ -439,10 +439,10 @@ tspace_ErrorCode tspace_initTangentOptions(tspace_TangentOptions* options, uint3
 /* Counts of triangles, groups and defects of the input. Invalid geometry never makes a call fail. */
 typedef struct tspace_TangentReport {
     uint32_t struct_size;
-    /* 0 or 1. TSPACE_METHOD_MIKKTSPACE: the input would drive the reference into quadratic time, so its last step
-     * was skipped. Either its sort (with TSPACE_PAIRING_REFERENCE): the corrected pairing was used for the last
-     * bucket; only crafted inputs cause this. Or its angular test: a group of more than 4096 faces whose tangents
-     * spread too far was not split. */
+    /* 0 or 1. TSPACE_METHOD_MIKKTSPACE: the input would drive the reference into quadratic time, so one of its steps
+     * was skipped. This is either the sort (with TSPACE_PAIRING_REFERENCE; the corrected pairing was used for the
+     * last bucket; only crafted inputs cause this), or the angular test (a group of more than 4096 faces whose
+     * tangents spread too far was not split). */
     uint32_t reference_order_abandoned;
     uint64_t triangle_count;            /* processed triangles, after triangulation of quads and n-gons */
     uint64_t degenerate_triangle_count; /* triangles with two corners at the same position */
@@ -1061,8 +1061,8 @@ typedef struct tspace_PlanBufferOptions {
      * normals. Without vertices, the default, a pose provides its normals.
      * In C: may be null: no mesh. */
     const tspace_Mesh* mesh;
-    /* Computation of the normals of `mesh`: every weighting except TSPACE_NORMAL_WEIGHTING_BEST. `denoise` must be
-     * 0. Only lengyel uses the convention: other plans have their own.
+    /* Options for the normals of `mesh`. Not supported: TSPACE_NORMAL_WEIGHTING_BEST, and `denoise` other than 0.
+     * `normals.convention` is used only for a plan of lengyel; plans of other methods store their convention.
      * In C: may be null: the defaults. */
     const tspace_NormalOptions* normals;
 } tspace_PlanBufferOptions;

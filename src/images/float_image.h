@@ -34,7 +34,8 @@ std::optional<std::vector<std::uint8_t>> encodeExr(const FloatImage& image, unsi
 /// Encodes a PNG with 8 or 16 bits, without color space information: each channel is clamped to 0 to 1 and rounded to
 /// the nearest integer (not finite: 0). Returns nullopt if this build cannot write PNG, or if libspng fails.
 std::optional<std::vector<std::uint8_t>> encodePng(const FloatImage& image, unsigned bits);
-/// Encodes an 8-bit image as PNG, like the overload above.
+/// Encodes an 8-bit image as PNG, without color space information. Returns nullopt if this build cannot write PNG, or
+/// if libspng fails.
 std::optional<std::vector<std::uint8_t>> encodePng(const RgbImage& image);
 
 }  // namespace tspace

@@ -59,7 +59,7 @@ struct FloatImage {
     std::vector<float> alpha = {};  ///< one per texel; empty: opaque
     /// Number of texels of an EXR file or texture that were not finite and were filled from their neighbors.
     std::uint64_t not_finite = 0;
-    TextureFacts texture = {};  ///< the name is empty for other files
+    TextureFacts texture = {};  ///< from the header of a KTX2, DDS or EXR file; other formats: the name is empty
     /// One sentence with the reason and its certainty if the values of the file were mapped to 0 to 1; otherwise empty.
     std::string range_text = {};
     /// Clause on the layer of an EXR that was read, and the layers that were not; empty if there is only one.

@@ -216,7 +216,8 @@ TEST_F(BakeCommand, ReportsSurfacesHiddenByAShell) {
     EXPECT_EQ(fits["fits"], true) << fits["verdict"];
     EXPECT_EQ(fits["angles"], seen["files"][0]["error"]);
     EXPECT_EQ(other["fits"], false) << other["verdict"];
-    EXPECT_NE(other["verdict"].get<std::string>().find("baked with rays that are averaged at hard edges, nearest"),
+    EXPECT_NE(other["verdict"].get<std::string>().find(
+                  "baked with rays along face normals averaged at hard edges to the nearest front face"),
               std::string::npos)
         << other["verdict"];
     EXPECT_EQ(other["rays"][0]["rays"], "nearest");

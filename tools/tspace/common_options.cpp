@@ -61,7 +61,7 @@ void readStream(std::FILE* stream, std::string& text) {
         text.append(part, count);
         if (text.size() > kMaxBytes) failFile(ErrorCode::cannotRead, "the list exceeds 256 MB");
     }
-    if (std::ferror(stream) != 0) failFile(ErrorCode::cannotRead, "it cannot be read");
+    if (std::ferror(stream) != 0) failFile(ErrorCode::cannotRead, "the list cannot be read");
 }
 
 /// Reads a file or a pipe; "-": standard input. Throws FileError.

@@ -31,18 +31,18 @@ Command heightToNormalCommand() {
         .summary = "convert a height map to a normal map",
         .operands = "IN -o OUT",
         .description =
-            "Computes a normal map from a gray image in which white is high and black is low (a bump map): the slopes "
-            "of the heights, multiplied by --strength. With --mesh, the strength is in model units, and slopes are "
-            "measured on the surface of the model.",
+            "Computes a normal map from a height map: a gray image in which white is high and black is low (a bump "
+            "map), or an image with encoded elevations (--encoding). The normals show the slopes of the heights, "
+            "multiplied by --strength. With --mesh, the strength is in model units, and slopes are measured on the "
+            "surface of the model.",
         .examples = {"tspace height-to-normal height.png -o normal.png --strength 4",
                      "tspace height-to-normal height.png -o normal.png --mesh wall.glb --strength 0.02",
                      "tspace height-to-normal height.png -o normal-dx.png --convention directx --bits 8"},
     };
-    addImageArguments(
-        command, arguments, InputKind::image,
-        "A height map: PNG (8 or 16 bits), JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin. The color channels are "
-        "averaged.",
-        "Output file: .png; '-': to stdout.", heightToNormalOptions(arguments.options));
+    addImageArguments(command, arguments, InputKind::image,
+                      "A height map: PNG (8 or 16 bits), JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin. With "
+                      "--encoding gray, the color channels are averaged.",
+                      "Output file: .png; '-': to stdout.", heightToNormalOptions(arguments.options));
     command.file = &owned->options.file;
     command.run = [owned] { return runHeightToNormal(*owned); };
     return command;

@@ -12,8 +12,8 @@
 namespace tspace::import {
 
 /// Adds a primitive without its material; returns nullopt if the mesh has no triangles. `joints`: for each bone of the
-/// mesh its index in the skin's list of joints; empty: no skin. `takes_tangents`: the mesh's tangents are those of the
-/// file.
+/// mesh its index in the skin's list of joints; empty: no skin. `takes_tangents`: true if Assimp's tangents come from
+/// the file, so they are written; otherwise they are dropped.
 std::optional<Json> addPrimitive(GlbBuilder& builder, const aiMesh& mesh, const std::vector<std::uint16_t>& joints,
                                  bool takes_tangents);
 

@@ -63,7 +63,7 @@ std::vector<std::string> RepairCounts::warnings() const {
 }
 
 std::string RepairCounts::coarseness() const {
-    return "positions are so far from the origin that 32-bit floats distort the shape: " +
+    return "positions are so far from the origin that 32-bit floats distort the shape: rounding changes " +
            std::to_string(coarse_edges) + " of " + std::to_string(edges) + " edges of triangles";
 }
 

@@ -78,10 +78,10 @@ namespace Tspace
     /// fail.</summary>
     public readonly partial struct TangentReport
     {
-        /// <summary>`mikktspace`: the input would drive the reference into quadratic time, so its last step was
-        /// skipped. Either its sort (with `reference`): the corrected pairing was used for the last bucket; only
-        /// crafted inputs cause this. Or its angular test: a group of more than 4096 faces whose tangents spread too
-        /// far was not split.</summary>
+        /// <summary>`mikktspace`: the input would drive the reference into quadratic time, so one of its steps was
+        /// skipped. This is either the sort (with `reference`; the corrected pairing was used for the last bucket;
+        /// only crafted inputs cause this), or the angular test (a group of more than 4096 faces whose tangents
+        /// spread too far was not split).</summary>
         public bool ReferenceOrderAbandoned { get => fields.ReferenceOrderAbandoned != 0; }
         /// <summary>Processed triangles, after triangulation of quads and n-gons.</summary>
         public long TriangleCount { get => (long)fields.TriangleCount; }

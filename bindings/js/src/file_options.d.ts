@@ -242,7 +242,7 @@ export interface FileOptions {
 }
 
 export interface IdentifyFileOptions {
-  /** Tangents that differ by less than this angle are treated as equal. In degrees, 0 to 180. Default: 1. */
+  /** Tangents that differ by at most this angle are treated as equal. In degrees, 0 to 180. Default: 1. */
   tolerance?: number | string;
 }
 

@@ -193,18 +193,18 @@ void findCause(FileBaking& state, const BakedFile& file, const LowPart& part) {
     };
     constexpr std::uint64_t kFew = 50;  // "few" means fewer than one in 50
     if (map.missed_count > map.hit_count) {
-        add(std::to_string(map.missed_count) + " of " + std::to_string(map.missed_count + map.hit_count) +
-                " texels of " + pathInQuotes(file.path) + " did not hit any front face of the high poly" +
-                (map.hit_count == 0 ? ", so no map was written" : ""),
+        add("the rays of " + std::to_string(map.missed_count) + " of " +
+                std::to_string(map.missed_count + map.hit_count) + " texels of " + pathInQuotes(file.path) +
+                " did not hit any front face of the high poly" + (map.hit_count == 0 ? ", so no map was written" : ""),
             causeOfMisses(part.view(), state.models.high.view(), *state.shared.surface, map.error.reach));
     } else if (2 * map.error.inward_count > map.error.point_count) {
         add("the normals of the high poly point inward, opposite to its faces, at " +
-                std::to_string(map.error.inward_count) + " of " + std::to_string(map.error.point_count) + " points",
+                std::to_string(map.error.inward_count) + " of " + std::to_string(map.error.point_count) + " samples",
             "");
     } else if (kFew * map.missed_count > map.hit_count) {
         const std::string why = likelyPlacementOf(part.view(), state.models.high.view(), *state.shared.surface);
         if (!why.empty())
-            add(std::to_string(map.missed_count) + " texels of " + pathInQuotes(file.path) +
+            add("the rays of " + std::to_string(map.missed_count) + " texels of " + pathInQuotes(file.path) +
                     " did not hit any front face of the high poly",
                 why);
     }

@@ -30,7 +30,7 @@ std::string rangeText(const BakedLayerFile& layer) {
         case MapLayer::thickness:
             return fmt::format(", {:.4g} to {:.4g}", least[0], most[0]);
         case MapLayer::curvature:
-            return fmt::format(", {:.4g} to {:.4g} / length", least[0], most[0]);
+            return fmt::format(", {:.4g} to {:.4g} per model unit", least[0], most[0]);
         case MapLayer::position:
             return fmt::format(", from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})", least[0], least[1],
                                least[2], most[0], most[1], most[2]);
@@ -59,25 +59,26 @@ void addFile(const BakedFile& file, Table& table) {
                                       degreesText(map.own_error.mean_deg))});
     table.addRow({"rays", raysText(file)});
     if (map.error.missed_count > 0)
-        table.addRow({"note", fmt::format("{} of {} error samples did not hit the high poly; each counts as {:.0f} "
-                                          "degrees, and the mean of the others is {}",
+        table.addRow({"note", fmt::format("the rays of {} of {} error samples did not hit the high poly; each counts "
+                                          "as {:.0f} degrees, and the mean error of the others is {} degrees",
                                           map.error.missed_count, map.error.missed_count + map.error.point_count,
                                           kMissedDeg, degreesText(map.error.met_mean_deg))});
     if (map.missed_count > 0)
         table.addRow(
-            {"warning", fmt::format("{} did not hit the high poly and {} filled from neighbors; use a larger --reach "
-                                    "to search farther, or --misses to write a picture that shows these texels",
+            {"warning", fmt::format("{} whose ray did not hit the high poly {} filled from neighbors; use a larger "
+                                    "--reach to search farther, or --misses to write a picture that shows these texels",
                                     counted(map.missed_count, "texel"), map.missed_count == 1 ? "is" : "are")});
     if (map.overlap_count > 0)
         table.addRow({map.conflict_count > 0 ? "warning" : "note",
                       fmt::format("{} shared by several triangles{}", counted(map.overlap_count, "texel"),
                                   map.conflict_count > 0
                                       ? fmt::format(", which need different normals in {} of them: mean difference "
-                                                    "{:.1f} degrees, maximum {:.1f} (--overlap)",
+                                                    "{:.1f} degrees, maximum {:.1f}; --overlap selects the normal",
                                                     map.conflict_count, map.conflict_mean_deg, map.conflict_max_deg)
                                       : std::string())});
     if (map.degenerate_uv_count > 0)
-        table.addRow({"note", fmt::format("{} without UV area", counted(map.degenerate_uv_count, "triangle"))});
+        table.addRow({"note", fmt::format("{} without UV area, or with UVs that are not finite, ignored",
+                                          counted(map.degenerate_uv_count, "triangle"))});
 }
 
 }  // namespace
@@ -95,7 +96,8 @@ void addBakedRows(const BakeFileReport& done, const std::string& out_mesh, Table
     for (const std::string& finding : done.findings) table.addRow({"finding", printable(finding)});
     if (!out_mesh.empty() && !done.output_files.empty())
         table.addRow({"model", fmt::format("{}, with its frames and maps", unbroken(out_mesh))});
-    if (done.frames_made) table.addRow({"note", "missing frames of the low poly were computed as in generate"});
+    if (done.frames_made)
+        table.addRow({"note", "missing tangent frames of the low poly were computed, as by tspace generate"});
     if (done.matched_by_name) table.addRow({"note", "meshes were matched by name"});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
 }

@@ -55,7 +55,8 @@ const HighMapReading::Image& HighMapReading::imageOf(std::size_t number) {
         return image;
     }
     const std::string how_read = readTextureVectors(read);
-    if (!how_read.empty()) made_.warnings.push_back("the high poly's normal map: " + how_read);
+    if (!how_read.empty())
+        made_.warnings.push_back("the high poly's normal map " + inQuotes(nameOf(number)) + ": " + how_read);
     image.is_gray = isGrayImage(read);
     const GreenVerdict verdict = greenOf(read);
     image.shows_green = verdict == GreenVerdict::up || verdict == GreenVerdict::down;

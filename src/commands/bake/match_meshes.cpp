@@ -132,11 +132,11 @@ class Matching {
                 lonely_high.insert(namesOf(high_, i).shown());
         }
         if (!lonely_low.empty())
-            match_.warnings.push_back("no mesh of the high poly matches the low-poly name " + listOf(lonely_low) +
-                                      "; the whole high poly was used there");
+            match_.warnings.push_back("no high-poly mesh matches these low-poly meshes: " + listOf(lonely_low) +
+                                      "; they were baked from the whole high poly");
         if (!lonely_high.empty())
-            match_.warnings.push_back("no mesh of the low poly matches the high-poly name " + listOf(lonely_high) +
-                                      ", so it was baked onto all low-poly meshes");
+            match_.warnings.push_back("no low-poly mesh matches these high-poly meshes: " + listOf(lonely_high) +
+                                      "; they were baked onto all low-poly meshes");
         return std::move(match_);
     }
 

@@ -352,8 +352,8 @@ HighModel highModel(const DrawnScene& drawn, const MeshMatch* match, const std::
     }
     if (options.denoise != 0) model.warnings.push_back(denoisedText(noise, !model.shown.maps.empty()));
     if (made > 0)
-        model.warnings.push_back(std::string("the high poly has no normals, so its triangles were baked as ") +
-                                 (is_flat ? "flat, as glTF specifies" : "smooth"));
+        model.warnings.push_back(std::string("primitives of the high poly without vertex normals were baked with ") +
+                                 (is_flat ? "flat shading, as the file format specifies" : "computed smooth normals"));
     return model;
 }
 

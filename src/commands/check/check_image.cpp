@@ -127,10 +127,11 @@ std::optional<Finding> zeroFinding(const std::string& name, const RgbImage& imag
         high += rgb[0] == 128 && rgb[1] == 128 ? 1 : 0;
     }
     if (low <= high || static_cast<double>(low) < kMinShare * static_cast<double>(total)) return {};
-    return noteOn(FindingCode::normalMapZero, low, total,
-                  "flat areas may look slightly tilted: flat texels of " + name +
-                      " are (127, 127), where most programs write (128, 128). Both values tilt the normal by 0.3 "
-                      "degrees, in opposite directions, and a reader that subtracts 128 / 255 shows twice that");
+    return noteOn(
+        FindingCode::normalMapZero, low, total,
+        "flat areas may look slightly tilted: flat texels of " + name +
+            " are (127, 127), where most programs write (128, 128). Both values tilt the normal by 0.3 degrees, in "
+            "opposite directions; a reader that subtracts 128 / 255 shows 127 with a tilt of 0.6 degrees");
 }
 
 }  // namespace

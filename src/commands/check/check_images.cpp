@@ -347,8 +347,8 @@ Finding mixed(const std::string& name, const GreenTest& test) {
         FindingCode::greenMixed, Severity::warning, blocks, "blocks",
         "bumps probably look like dents in one part: green seems to point down in one part of the normal map " + name +
             " (" + rectText(test.down_part) + " from the top left) and up in another (" + rectText(test.up_part) +
-            "): " + countText(blocks, "blocks") + " of 16 x 16 pixels with relief point down, " +
-            shareText(blocks.share()));
+            "): " + "green points down in " + countText(blocks, "blocks") + " of 16 x 16 pixels with relief (" +
+            shareText(blocks.share()) + ")");
 }
 
 NamedImage namedImage(const Scene& scene, const NormalMap& map) {
@@ -392,9 +392,9 @@ void describeReading(const Scene& scene, const NormalMap& map, const std::string
     const Tally one{.count = 1, .total = 1};
     findings.push_back(makeFinding(FindingCode::fileRemark, Severity::note, one, "images",
                                    "the normal map " + name + ": " + map.layer_text));
-    setRemedy(
-        findings.back(),
-        Remedy{"No action is needed if these channels are the normal map. Otherwise export its layer alone.", {}});
+    setRemedy(findings.back(), Remedy{"No action is needed if these channels are the normal map. Otherwise export the "
+                                      "layer of the normal map alone.",
+                                      {}});
 }
 
 /// Reports how the file stores the map: lossy compression, declared sRGB, and missing mip levels.
@@ -463,7 +463,7 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         const std::optional<TextureFacts> facts = textureFacts(scene.images[map.image].bytes);
         std::optional<Finding> content =
             contentFinding(namedImage(scene, map), map.analysis, isDown(map) && !(has_own_green && isDeclared(map)));
-        if (content && facts) content->message += " (it is " + facts->name + ")";
+        if (content && facts) content->message += " (format: " + facts->name + ")";
         if (content && map.analysis.content == MapContent::height && mayBeHeights(map)) {
             content->severity = Severity::note;
             content->message = name + " is a height map (map_bump), not a normal map";
@@ -490,8 +490,8 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         placeAt(*part.primitive, part.use->place, finding);
         if (!map.is_of_unknown) continue;
         finding.severity = Severity::note;
-        finding.message += " (only " + part.use->needed_by +
-                           " uses the map, which tspace does not know; it was checked like a normalTexture)";
+        finding.message += " (the map was checked like a normalTexture, because only " + part.use->needed_by +
+                           ", which tspace does not know, uses it)";
     }
     return findings;
 }

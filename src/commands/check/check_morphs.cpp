@@ -141,7 +141,7 @@ void checkMorphValues(PrimitiveFacts& facts) {
         return isDirection(base) && isFinite(offset) && length(toDouble(base + offset)) < kLeastLength;
     };
     values.report(FindingCode::morphNormalsWrong, values.find(&SceneMorphTarget::normals, vanishes), "normals",
-                  "cancel the normals, so shaders get NaN at full weight");
+                  "cancel the base normals, so shaders get NaN at full weight");
 }
 
 // Checks that base normals plus offsets are still normals of the morphed surface.

@@ -89,10 +89,10 @@ std::string differenceText(const ScenePacked& packed, const PackedErrors& errors
     const FrameErrorBound bound = frameErrorBound(packed.format);
     std::string text = packed.attribute + " differs from NORMAL and TANGENT at " +
                        countText(errors.beyond, "vertices") + ": N is off by up to " + degreesText(errors.normal_deg) +
-                       " degrees, T by " + degreesText(errors.tangent_deg) + ", where " +
-                       frameFormatName(packed.format) + " guarantees " + degreesText(bound.normal_deg) + " and " +
-                       degreesText(bound.tangent_deg);
-    if (errors.sign_count != 0) text += "; the sign differs at " + std::to_string(errors.sign_count);
+                       " degrees, T by " + degreesText(errors.tangent_deg) + "; the format " +
+                       frameFormatName(packed.format) + " guarantees at most " + degreesText(bound.normal_deg) +
+                       " and " + degreesText(bound.tangent_deg) + " degrees";
+    if (errors.sign_count != 0) text += "; the sign differs at " + std::to_string(errors.sign_count) + " of them";
     return text;
 }
 

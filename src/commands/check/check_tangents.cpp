@@ -229,7 +229,7 @@ class Search {
     Faults now_;
 };
 
-/// Returns whether another interpretation must explain wrong directions, and not only wrong signs.
+/// Returns whether directions, not only signs, are wrong, so that another interpretation must fix the directions.
 bool areDirectionsWrong(const FrameHealth& health, const Surface& surface) {
     return faultsOf(health, surface).directions > kClearlyWrong;
 }

@@ -26,7 +26,7 @@ std::string testsText(const CheckReport& report) {
     std::string text = fmt::format("; examined {}: channel contents", counted(report.image_count, "normal map"));
     if (report.green_count == report.image_count) return text + ", direction of green";
     if (report.green_count == 0) return text + "; the direction of green cannot be determined";
-    return text + fmt::format(", direction of green in {}", report.green_count);
+    return text + fmt::format(", direction of green in {} of them", report.green_count);
 }
 
 std::string summaryLine(const CheckOutcome& outcome) {

@@ -45,8 +45,8 @@ constexpr std::array<CodeTexts, kFindingCodeCount> kCodes{{
      "normals",
      "Normals do not have unit length.",
      "Shading and bumps are too strong or too weak in some viewers.",
-     "Normalize the normals: {}. Their directions do not change, so tangents are kept, except for errors that are "
-     "reported too.",
+     "Normalize the normals: {}. Their directions do not change, so correct tangents are kept; tangents with reported "
+     "errors are repaired.",
      {"generate --repair"}},
     {"normalsAgainstWinding", "normals", "Normals point to the back of their triangles.",
      "Parts of the surface are lit as if the light came from behind them.",
@@ -300,7 +300,7 @@ constexpr std::array<CodeTexts, kFindingCodeCount> kCodes{{
      "",
      "An attribute accessor has an invalid type.",
      "Programs reject the file, or draw the attribute incorrectly.",
-     "Export the attribute again; or compute new normals: {}. Other attributes are removed: {}.",
+     "Export the attribute again. Otherwise compute new normals: {}; or remove another attribute: {}.",
      {"generate --overwrite-normals", "generate --repair"}},
 }};
 

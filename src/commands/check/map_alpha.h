@@ -19,7 +19,7 @@ struct AlphaPair {
 };
 
 /// Returns whether alpha may hold x or y, so that it must be decoded: one of the colors is constant, or two are equal.
-/// At most one of x and y is left for the three colors, and z.
+/// Reason: if alpha holds one of x and y, the three colors hold only the other one, z and filling.
 bool mayHaveXInAlpha(std::span<const TexelBytes> texels);
 
 /// Returns each color (the first of equal ones) that forms x and y with alpha, if the colors hold nothing else: each of

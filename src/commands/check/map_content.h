@@ -38,7 +38,7 @@ struct MapAnalysis {
     bool follows_mesh = false;
     /// For picture: only y is stored, in green, as in a DXT5nm map that lost its alpha channel with x.
     bool is_x_lost = false;
-    /// content is picture: red and green are directions in the surface, as in flow and anisotropy maps.
+    /// For picture: red and green store a direction in the tangent plane, as in flow and anisotropy maps.
     bool holds_directions = false;
     /// For objectSpace: the vectors follow the normals as rotated by a node of the scene.
     bool is_in_world = false;

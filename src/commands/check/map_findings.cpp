@@ -87,7 +87,7 @@ std::string messageOf(const NamedImage& image, const MapAnalysis& analysis) {
             }
             return "the relief is lit from the wrong direction: channels of the normal map " + name +
                    " are exchanged: it has " + axisText("x", layout.x) + ", " + axisText("y", layout.y) + " and " +
-                   axisText("z", layout.z) + ", the mean direction";
+                   axisText("z", layout.z) + "; its vectors point along this z on average";
         case MapContent::encoded:
             return "the relief looks tilted: the normal map " + name +
                    " was stored as a color image: its texels are unit vectors only after the sRGB curve is " +
@@ -116,14 +116,14 @@ std::string messageOf(const NamedImage& image, const MapAnalysis& analysis) {
                        "z, as in a flow or anisotropy map";
             }
             return name +
-                   " is a color image, not a normal map: its texels are not unit vectors around a direction out of the "
-                   "surface";
+                   " is a color image, not a normal map: its texels do not decode to unit vectors that point away from "
+                   "the surface";
         case MapContent::hemiOctahedral:
             return "the relief is lit incorrectly: the normal map " + name +
                    " is hemi-octahedrally encoded: " + channelName(layout.x.channel) + " and " +
                    channelName(layout.y.channel) +
-                   " hold x + y and x - y of (x, y, z) / (|x| + |y| + z), as their slopes show, and glTF does not have "
-                   "this encoding";
+                   " hold x + y and x - y of (x, y, z) / (|x| + |y| + z), as the slopes of the map show, and glTF does "
+                   "not have this encoding";
         case MapContent::normals:
         case MapContent::height:
             break;
@@ -171,7 +171,7 @@ Remedy objectSpaceRemedy(const NamedImage& image, const MapAnalysis& analysis, b
     if (analysis.follows_mesh && analysis.is_in_world)
         return {"Convert the map from world space: {}", {withLayout(world, analysis.layout)}};
     if (analysis.follows_mesh) return inModelOrAlone(image, green_is_down, withLayout(object, analysis.layout));
-    const std::string text = ": {} (or --from world, if the map used the node transforms).";
+    const std::string text = ": {} (or with --from world, if the map used the node transforms).";
     if (image.is_alone) return {"Convert the map with the model for which it was made" + text, {object}};
     return {"Find out for which model the map was made" + text + " Or bake it again.", {object}};
 }

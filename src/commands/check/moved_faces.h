@@ -22,9 +22,9 @@ class MovedFaces {
                std::span<const std::uint32_t> vertices);
 
     /// Returns whether smoothing of faces around vertices[i] can result in the unit normal `normal`, within `slack`
-    /// radians. `turn`: rotation of the faces that share the vertex normal on the base. `is_hard`: the base normal is
-    /// smooth only over these faces, so a face that is more than 80 degrees away from them on both the base and the
-    /// morphed mesh is ignored.
+    /// radians. `turn`: rotation, by the morph, of the faces that share the vertex's normal on the base mesh.
+    /// `is_hard`: the base normal averages only those faces, so a face at more than 80 degrees to them on both the base
+    /// and the morphed mesh is ignored.
     [[nodiscard]] bool admit(std::size_t i, const DVec3& normal, const VertexRotation& turn, bool is_hard,
                              double slack) const;
 

@@ -97,7 +97,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
             lengths = " (from " + shortNumber(scales->min_length) + " to " + shortNumber(scales->max_length) + ")";
         facts.add(FindingCode::normalsNotUnit, zero_count != 0 || is_far ? Severity::error : Severity::warning,
                   not_unit, "vertices",
-                  "the shading may be too dark, too bright or too steep: the normals of " +
+                  "the shading may be too dark or too bright, and bumps too strong or too weak: the normals of " +
                       countText(not_unit, "vertices") + " do not have unit length" + lengths +
                       (zero_count != 0 ? "; " + std::to_string(zero_count) + " of them have length 0" : ""));
         if (zero_count != 0) {
@@ -321,7 +321,7 @@ void checkNormals(PrimitiveFacts& facts) {
         Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
         facts.add(FindingCode::normalsMissing, Severity::note, all, "vertices",
                   facts.is_gltf ? "the surface looks faceted: it has no normals, so glTF readers shade it flat"
-                                : "not all faces have normals, so normals are computed for the others");
+                                : "some or all faces have no normals, so tspace computes normals for them");
         return;
     }
     const std::size_t first = facts.findings.size();
@@ -445,11 +445,12 @@ void checkTextures(PrimitiveFacts& facts) {
         const Tally different = compareReadings(facts, reading);
         if (different.count == 0) continue;
         const bool of_two = uses[i].material != uses[0].material;
-        facts.add(FindingCode::texturesDisagree, Severity::warning, different, "triangles",
-                  textureText(uses[i], of_two) + " needs different tangents than " + textureText(uses[0], of_two) +
-                      " on " + countText(different, "triangles") +
-                      ", so one of the two is lit incorrectly; a vertex has only one tangent, which can only follow "
-                      "the latter");
+        facts.add(
+            FindingCode::texturesDisagree, Severity::warning, different, "triangles",
+            textureText(uses[i], of_two) + " needs different tangents than " + textureText(uses[0], of_two) + " on " +
+                countText(different, "triangles") +
+                ", so one of the two is lit incorrectly; a vertex has only one tangent, and tspace computes it for " +
+                textureText(uses[0], of_two));
         facts.findings.back().place = uses[i].place;
     }
 }
@@ -499,11 +500,11 @@ void checkRounding(PrimitiveFacts& facts) {
                       .worst_deg = turned.worst_deg,
                       .vertices = {turned.first}};
     facts.add(FindingCode::positionsRounded, Severity::warning, tally, "triangles",
-              "tangents and normals are unreliable: positions are rounded to steps of " + stepText(rounding.step) +
-                  " at up to " + stepText(rounding.far) + " from the origin, which rotates " +
+              "tangents and normals are unreliable: positions up to " + stepText(rounding.far) +
+                  " from the origin are rounded to steps of " + stepText(rounding.step) + ", which can rotate " +
                   countText(tally, "triangles") + " by " + decimalText(facts.options.direction_deg) +
-                  " degrees or more, up to " + decimalText(turned.worst_deg) + " (" + shareText(turned.share) +
-                  " of the surface); tangents there are not reported as errors");
+                  " degrees or more (at most " + decimalText(turned.worst_deg) + " degrees; " +
+                  shareText(turned.share) + " of the surface); tangents there are not reported as errors");
     if (rounding.was_before) {
         setRemedy(facts.findings.back(),
                   "Use the model from before its positions were rounded, or round them to smaller steps, and keep the "
@@ -524,7 +525,7 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
         if (has_positions && !primitive.tangents.empty() && primitive.uses.empty()) {
             Tally all{.count = 1, .total = 1};
             facts.add(FindingCode::tangentsUnused, Severity::note, all, "primitives",
-                      "it has tangents, but draws " + primitive.mode);
+                      "the primitive has tangents, but draws " + primitive.mode + ", and no material needs them");
         }
         return PrimitiveVerdict{.findings = std::move(facts.findings)};
     }

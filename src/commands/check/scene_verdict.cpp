@@ -278,7 +278,9 @@ void lowerSigns(PrimitiveJudgement& judgement, MapEffect maps) {
     if (maps == MapEffect::cancel) {
         soften(*wrong, "; but green points down in its normal map too, so the inverted signs render correctly");
     } else if (most) {
-        soften(*wrong, "; but it is unknown whether green also points down in its normal map");
+        soften(*wrong,
+               "; but it is unknown whether green also points down in its normal map, in which case they would render "
+               "correctly");
     }
 }
 
@@ -374,10 +376,10 @@ constexpr const char* kExamineTheMap =
     "invert the green channel, or change neither. If the high poly is available, {} measures which is correct.";
 
 constexpr const char* kOnlyForItsReaders =
-    "No action is needed for programs that read the packed frames. For others use the model that they were packed "
-    "from.";
+    "No action is needed for programs that read the packed frames. For other programs, use the model from which the "
+    "frames were packed.";
 constexpr const char* kAlsoForOthers =
-    "No action is needed for programs that read the packed frames. For others compute tangents too: {}.";
+    "No action is needed for programs that read the packed frames. For other programs, compute tangents too: {}.";
 
 constexpr const char* kAuthoredTangents =
     "Repair the tangents with the program that made them. No texture uses them, so tspace cannot determine their "

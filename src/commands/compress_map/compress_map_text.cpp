@@ -13,10 +13,10 @@ std::string compressMapText(const Outcome<CompressMapFileReport>& outcome) {
     table.addRow(
         {"texture", fmt::format("{}, {} x {}, {} {}, {} bytes", done.format, done.width, done.height, done.level_count,
                                 done.level_count == 1 ? "level" : "levels", done.output_bytes)});
-    table.addRow(
-        {"error",
-         fmt::format("mean {:.3g} degrees, 99th percentile {:.3g}, maximum {:.3g} (at texel {:.1f}, {:.1f}), filtered",
-                     done.mean_error_deg, done.p99_error_deg, done.max_error_deg, done.max_error_x, done.max_error_y)});
+    table.addRow({"error", fmt::format("mean {:.3g} degrees, 99th percentile {:.3g}, maximum {:.3g} (at texel {:.1f}, "
+                                       "{:.1f}), of the filtered texture",
+                                       done.mean_error_deg, done.p99_error_deg, done.max_error_deg, done.max_error_x,
+                                       done.max_error_y)});
     if (done.roughness_bytes > 0)
         table.addRow(
             {"roughness", fmt::format("{} bytes; mean {:.3f}, and {:.3f} at the last mip level", done.roughness_bytes,

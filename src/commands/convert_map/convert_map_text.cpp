@@ -9,8 +9,8 @@ namespace tspace::report {
 namespace {
 
 std::string meshText(const std::string& file, const MapMeshReport& mesh) {
-    return fmt::format("{}: {} triangles in {} primitives{}{}", printable(file), mesh.triangle_count,
-                       mesh.primitive_count, mesh.tangents_made ? ", tangents computed" : "",
+    return fmt::format("{}: {} in {}{}{}", printable(file), counted(mesh.triangle_count, "triangle"),
+                       counted(mesh.primitive_count, "primitive"), mesh.tangents_made ? ", tangents computed" : "",
                        mesh.scale == 1 ? "" : fmt::format(", map scaled by {:.4g}", mesh.scale));
 }
 

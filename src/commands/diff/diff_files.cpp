@@ -287,7 +287,7 @@ OptionList identifyOptions(IdentifyOptions& options) {
     addAllowExternal(list, options.file);
     add(list, "Comparing",
         degrees("--tolerance", options.tolerance_deg, 180,
-                "Tangents that differ by less than this angle are treated as equal. In degrees, 0 to 180."));
+                "Tangents that differ by at most this angle are treated as equal. In degrees, 0 to 180."));
     addThreads(list, options.execution,
                "Number of threads; 0: one per core. The results are the same for any number of threads.");
     addLimits(list, options.file);

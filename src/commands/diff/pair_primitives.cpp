@@ -22,8 +22,7 @@ namespace tspace {
 
 namespace {
 
-/// Returns the texture coordinates that both meshes may have kept: only the first set, since tools add and drop the
-/// others.
+/// Returns the first UV set, or null if there is none. Other sets are not compared, because tools add and drop them.
 const SharedArray<Vec2>* firstUvs(const ScenePrimitive& primitive) {
     return primitive.uv_sets.empty() || primitive.uv_sets[0].empty() ? nullptr : &primitive.uv_sets[0];
 }

@@ -476,7 +476,7 @@ std::vector<std::string> doneTo(const FinishedModel& model) {
     if (anew != 0) done.push_back("tangents repaired or recomputed for " + counted(anew, "primitive"));
     if (model.normals_scaled_count != 0)
         done.push_back("normals of " + counted(model.normals_scaled_count, "primitive") + " scaled to unit length");
-    if (model.attributes_repaired) done.emplace_back("attributes that could not be read repaired or removed");
+    if (model.attributes_repaired) done.emplace_back("unreadable attributes repaired or removed");
     if (totals.morph_deltas_computed != 0 && made + anew == 0)
         done.push_back("tangent deltas computed for " + counted(totals.morph_deltas_computed, "morph target"));
     if (done.empty()) done.emplace_back(model.made.changed ? "only the format was changed" : "no changes were needed");

@@ -107,7 +107,8 @@ std::string finishPage(const FinishReport& report, const FinishViews& views, con
     finished.content = output;
     std::string html = pageHead("tspace finish");
     html += "<h1>" + htmlText(output_path) + "</h1>\n" + originHtml(origin) +
-            "<p class=\"dim\">Correct data is preserved; tspace check lists what is wrong.</p>\n";
+            "<p class=\"dim\">tspace finish changes only data that is missing or wrong. The table counts the findings "
+            "of tspace check.</p>\n";
     html += kWideTable;
     html +=
         "<thead><tr><th>model</th><th class=\"n\">errors</th><th class=\"n\">warnings</th>"

@@ -20,7 +20,7 @@ FlippedImage flippedTexturePng(ByteSpan bytes) {
     for (Vec3& texel : image->texels) texel.y = 1 - texel.y;
     const unsigned bits = image->bits == 8 && how_read.empty() ? 8 : 16;
     std::optional<std::vector<std::uint8_t>> file = encodePng(*image, bits);
-    if (!file) failFile(ErrorCode::outOfMemory, "the image cannot be encoded");
+    if (!file) failFile(ErrorCode::outOfMemory, "the image cannot be encoded as PNG");
     FlippedImage flipped{
         *std::move(file),
         {.format = ImageFileFormat::png, .width = image->width, .height = image->height, .bits = bits}};

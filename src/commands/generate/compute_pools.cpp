@@ -382,8 +382,8 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
         for (Vec4& tangent : frames.tangents) tangent.w = -tangent.w;
         for (const std::size_t number : pool.primitives) {
             reports[number].notes.emplace_back(
-                "most tangent signs of the file were inverted, so all new signs were inverted too, because its normal "
-                "map may rely on this; use --overwrite to write the signs of the UVs");
+                "most tangent signs of the file were inverted, so all new signs were inverted too, because the normal "
+                "map may rely on this; use --overwrite to write the signs that the UVs require");
         }
     }
     PoolElements elements = packFrames(document_, primitives_, pool, std::move(frames),

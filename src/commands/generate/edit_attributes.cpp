@@ -186,7 +186,8 @@ std::string repairAttribute(Editor& editor, const Document& document, const Prim
     attributesOf(editor, primitive, fault.target)[fault.name] = entry->second;
     editor.moveUse(fault.accessor, entry->second);
     if (old_count < fault.new_count)
-        return start + " has fewer components than required; zeros were appended to the " + std::to_string(old_count);
+        return start + " has only " + std::to_string(old_count) + (old_count == 1 ? " component" : " components") +
+               ", fewer than required; zeros were appended";
     return start + " has more components than allowed; only the first " + std::to_string(fault.new_count) + " are kept";
 }
 

@@ -267,7 +267,8 @@ class Alternatives {
 
     /// Returns why the image is not inverted; empty if it is. Inverts the image first if it was not judged yet.
     std::string whyUnchanged(std::size_t image) {
-        const std::string start = "image " + std::to_string(image) + " is the same map in another format and ";
+        const std::string start =
+            "image " + std::to_string(image) + ", which stores the same map in another format and must match, ";
         const auto judged = judged_.find(image);
         if (judged != judged_.end()) return judged->second->flipped ? "" : start + "was not inverted";
         std::string why = "it cannot be read";
@@ -291,7 +292,9 @@ class Alternatives {
 void rewriteInPlace(Document& document, const Scene& scene, const GenerateOptions& options, JudgedMap& map,
                     MapFlips& flips) {
     if (!TextureUses(document).alternatives(map.image).empty()) {
-        if (!map.report.flipped) map.report.reason = "the same map also exists in another format";
+        if (!map.report.flipped)
+            map.report.reason =
+                "the texture also has an image in another format (such as WebP or KTX2), which would no longer match";
         return;
     }
     Bytes mended = rewriteJudgedMap(scene, options, map);

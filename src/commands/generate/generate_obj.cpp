@@ -135,7 +135,8 @@ bool decide(const Material& material, const ObjPrimitive& primitive, const Gener
     const bool needed = material.normal_texture.used();
     if (!needed && !options.selection.all) {
         report.action = PrimitiveAction::notNeeded;
-        report.reason = material.found ? "the material has no normal map" : "no material has a normal map";
+        report.reason =
+            material.found ? "the material has no normal map" : "the faces have no material, or no MTL file defines it";
     } else if (!primitive.has_uvs && options.tangents.compute.method != Method::basis) {
         report.action = PrimitiveAction::impossible;
         report.reason = "the faces have no texture coordinates";

@@ -145,7 +145,7 @@ bool isSkipped(PrimitiveReport& report, const Document& document, const Primitiv
         report.action = PrimitiveAction::removed;
         why = "nothing needs its tangents: " + why;
     } else if (options.selection.strip && uses.empty() && primitive.find("TANGENT")) {
-        why += "; its tangents were kept, because a morph target stores only tangent deltas";
+        why += "; its tangents were kept, because a morph target has nothing but tangent deltas, and cannot be empty";
     }
     report.reason = std::move(why);
     return true;
@@ -209,7 +209,8 @@ std::string noteOnAuthored(const Document& document, const Primitive& primitive,
     std::string reader = otherTangentReader(document, primitive);
     if (reader.empty() && !uses.empty()) reader = uses[0].needed_by + " without a texture";
     if (reader.empty()) return {};
-    return "tangents that may have been authored (" + reader + ") were recomputed" + (along_u ? " along u" : "");
+    return "its tangents were recomputed" + std::string(along_u ? " along u" : "") +
+           ", although they may have been authored for " + reader;
 }
 
 /// Returns a key; primitives with equal keys are computed together.

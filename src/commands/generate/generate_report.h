@@ -37,7 +37,7 @@ struct NamedCount {
 inline constexpr NamedCount kCauses[] = {
     {"notFinite", "not finite", &SanitizeReport::not_finite_count},
     {"zero", "zero", &SanitizeReport::zero_count},
-    {"notUnit", "not unit", &SanitizeReport::not_unit_count},
+    {"notUnit", "not of unit length", &SanitizeReport::not_unit_count},
     {"parallel", "parallel to the normal", &SanitizeReport::parallel_count},
     {"placeholder", "without a direction", &SanitizeReport::placeholder_count},
     {"badSign", "sign not +1 or -1", &SanitizeReport::bad_sign_count},

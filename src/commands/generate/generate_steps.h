@@ -92,8 +92,8 @@ class MapConversion {
   private:
     Model& model_;
     const GenerateOptions& options_;
-    std::vector<std::size_t> numbers_ = {};     ///< primitives that use normal maps
-    Scene before_ = {};                         ///< primitives `numbers_` before the change, in this order
+    std::vector<std::size_t> numbers_ = {};  ///< primitives that use normal maps
+    Scene before_ = {};  ///< state, before the change, of the primitives `numbers_`, in the same order
     std::map<std::size_t, Bytes> images_ = {};  ///< files of the normal maps; key: image index
 };
 

@@ -175,7 +175,7 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     const std::string others = report.output_files.size() > 1
                                    ? fmt::format(" and {}", counted(report.output_files.size() - 1, "other file"))
                                    : "";
-    table.addRow({outcome.is_dry_run ? "would be" : "written",
+    table.addRow({outcome.is_dry_run ? "not written" : "written",
                   fmt::format("{}{} ({}){}", unbroken(first), others, byteText(report.output_bytes),
                               report.changed ? "" : ", a copy of the input")});
     return table.text("  ");

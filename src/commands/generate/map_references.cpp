@@ -102,8 +102,11 @@ std::string MapReferences::whyNotSeparate(std::span<const MapUser> users) const 
     for (const MapUser& user : users) {
         if (!isShared(slotOf(user).material, users)) continue;
         if (user.use->only_in_variant)
-            return "other primitives share its material in a variant, but need a different map";
-        if (has_pointers) return "other primitives share its material, which may be animated, but need a different map";
+            return "other primitives need a different map but share its material, which is not copied, because a "
+                   "material variant selects it";
+        if (has_pointers)
+            return "other primitives need a different map but share its material, which is not copied, because "
+                   "KHR_animation_pointer may animate it";
     }
     return {};
 }

@@ -108,7 +108,8 @@ class PackedWriter {
             }
             const Accessor accessor = readAccessor(document_, *index);
             if (*type == '\0') continue;
-            if (accessor.type != type) return std::string("its ") + name + " is " + formatName(accessor);
+            if (accessor.type != type)
+                return std::string("its ") + name + " is " + formatName(accessor) + ", not " + type;
             if (!hasData(document_, accessor)) return std::string("its ") + name + " cannot be read";
         }
         return {};
@@ -170,7 +171,7 @@ class PackedWriter {
         if (!keeps_more) return;
         report.notes.push_back(
             std::string(dropped.tangents ? "its NORMAL was kept" : "its NORMAL and TANGENT were kept") +
-            " in addition to the packed frames, because morph targets have such deltas");
+            " in addition to the packed frames, because its morph targets have deltas for this");
     }
 
     Editor& editor_;

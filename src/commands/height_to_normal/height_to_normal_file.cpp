@@ -176,8 +176,8 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
     addAllowExternal(list, options.file);
     add(list, "Map",
         flag("--clamp", options.clamp,
-             "Treat image borders as edges: slopes there are one-sided differences. By default the image wraps around, "
-             "as repeating textures do; with --mesh it wraps as the texture of the mesh does."));
+             "Do not wrap around at the image borders; slopes there are one-sided differences. By default the image "
+             "wraps around, as repeating textures do; with --mesh it wraps as the texture of the mesh does."));
     const auto take_convention = [&options](const std::string& name) {
         if (const MapReading* reading = findMapReading(name.c_str())) options.green = reading->green;
         return std::string();

@@ -24,8 +24,9 @@ std::string heightToNormalText(const Outcome<HeightToNormalFileReport>& outcome,
                                               options.mesh.empty() ? unit : "units")});
     }
     if (!options.mesh.empty()) {
-        table.addRow({"mesh", fmt::format("{}: {} triangles in {} primitives{}, covering {} texels",
-                                          printable(options.mesh), done.mesh.triangle_count, done.mesh.primitive_count,
+        table.addRow({"mesh", fmt::format("{}: {} in {}{}, covering {} texels", printable(options.mesh),
+                                          counted(done.mesh.triangle_count, "triangle"),
+                                          counted(done.mesh.primitive_count, "primitive"),
                                           done.mesh.tangents_made ? ", tangents computed" : "", done.texels.on_mesh)});
     }
     table.addRow({"slopes", fmt::format("mean {:.3g} degrees, maximum {:.3g}", done.texels.mean_lean_deg,

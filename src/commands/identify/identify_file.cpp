@@ -42,8 +42,8 @@ bool hasTwoReadings(const PrimitiveIdentity& primitive) {
             with_transform->gltf_sign_count != plain->gltf_sign_count);
 }
 
-/// Returns the explanation by a method with the UV set of the texture, transformed or as stored, whichever explains
-/// more corners. For Faces::quads, returns the explanation on triangles if quads do not explain more.
+/// Returns the explanation by a method with the UV set of the texture, transformed or as stored as followsTransform()
+/// decides. For Faces::quads, returns the explanation on triangles if there is none on quads.
 const Explanation* partOf(const PrimitiveIdentity& primitive, Method method, Faces faces) {
     const Explanation* part = nullptr;
     for (const Explanation& entry : primitive.explanations) {

@@ -136,7 +136,8 @@ void describeTriangles(const Document& document, const Primitive& primitive, boo
     const std::uint64_t bytes =
         std::uint64_t{72} * primitive.triangleCount() + std::uint64_t{64} * primitive.vertex_count;
     document.memory->require(bytes, primitive.place());
-    // Positions are read first: reading fails before a claimed number of vertices without data allocates memory.
+    // Positions are read first, so that a file that declares more vertices than it has data for is rejected before
+    // memory is allocated for them.
     const std::vector<Vec3> positions = readVec3(document, primitive, "POSITION");
     const std::vector<std::uint32_t> corners = readTriangleCorners(document, primitive);
     info.triangle_count = corners.size() / 3;

@@ -276,18 +276,17 @@ std::string difference(const ExplainedReading& asked, const ExplainedReading& be
 
 std::string raysPhrase(const RayOptions& rays) {
     const bool is_nearest = rays.target == RayTarget::nearest;
-    const std::string which = is_nearest ? ", nearest" : ", outermost";
-    if (!rays.skew.texels.empty()) return "directions from the skew map" + which;
+    const std::string target = std::string(" to the ") + (is_nearest ? "nearest" : "outermost") + " front face";
+    if (!rays.skew.texels.empty()) return "rays along the directions of the skew map" + target;
     switch (rays.directions) {
         case RayDirections::automatic:
-            return (is_nearest ? "rays that are averaged at hard edges" : "a cage that is averaged at hard edges") +
-                   which;
+            return "rays along face normals averaged at hard edges" + target;
         case RayDirections::averaged:
-            return (is_nearest ? "averaged rays" : "an averaged cage") + which;
+            return "rays along averaged normals" + target;
         case RayDirections::normals:
             break;
     }
-    return "rays along the stored normals" + which;
+    return "rays along the stored normals" + target;
 }
 
 void addRaysToVerdict(Measuring& state) {
@@ -347,7 +346,7 @@ void judge(Measuring& state, const ExplainedReading asked) {
     if (better <= kUnexplainedDeg) addRaysToVerdict(state);
     if (asked.error.missed_count * 1000 > asked.error.point_count)
         state.report.verdict +=
-            " This excludes samples that did not hit the high poly: " + std::to_string(asked.error.missed_count) +
+            " This excludes samples whose rays did not hit the high poly: " + std::to_string(asked.error.missed_count) +
             " of " + std::to_string(asked.error.missed_count + asked.error.point_count) + " samples.";
 }
 

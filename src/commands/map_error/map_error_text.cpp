@@ -51,9 +51,9 @@ std::string mapErrorText(const Outcome<MapErrorFileReport>& outcome) {
                                           error.hidden_count, error.missed_count + error.point_count)});
     if (error.missed_count > 0)
         table.addRow(
-            {"note",
-             fmt::format("{} of {} samples did not hit the high poly within {:.4g}; each counts as {:.0f} degrees",
-                         error.missed_count, error.missed_count + error.point_count, error.reach, kMissedDeg)});
+            {"note", fmt::format("the rays of {} of {} samples did not hit the high poly within {:.4g} model units; "
+                                 "each counts as {:.0f} degrees",
+                                 error.missed_count, error.missed_count + error.point_count, error.reach, kMissedDeg)});
     for (const BakedHighMap& map : done.high_maps) table.addRow({"high map", highMapText(map)});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
     return fmt::format("{}: {}\n{}", unbroken(outcome.input), done.verdict, table.text("  "));
@@ -64,10 +64,10 @@ std::string textureErrorText(const Outcome<TextureErrorReport>& outcome) {
     Table table;
     table.addRow({"texture",
                   fmt::format("{}, {} x {}", done.format.empty() ? "an image" : done.format, done.width, done.height)});
-    table.addRow(
-        {"error",
-         fmt::format("mean {:.3g} degrees, 99th percentile {:.3g}, maximum {:.3g} (at texel {:.1f}, {:.1f}), filtered",
-                     done.mean_error_deg, done.p99_error_deg, done.max_error_deg, done.max_error_x, done.max_error_y)});
+    table.addRow({"error", fmt::format("mean {:.3g} degrees, 99th percentile {:.3g}, maximum {:.3g} (at texel {:.1f}, "
+                                       "{:.1f}), of the filtered texture",
+                                       done.mean_error_deg, done.p99_error_deg, done.max_error_deg, done.max_error_x,
+                                       done.max_error_y)});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
     return fmt::format("{}\n{}", unbroken(outcome.input), table.text("  "));
 }

@@ -116,12 +116,13 @@ std::string FindingPictures::drawAfter(const RemedyCommand& command, std::size_t
                                        std::span<const std::size_t> triangles, RenderFrames frames,
                                        FindingPicture& result) {
     const std::optional<GenerateOptions> options = optionsOf(command);
-    if (!options) return "No picture of the fix was made, because its command contains a value that must be chosen.";
+    if (!options) return "The command contains a value that must be chosen.";
     const Model::FixResult& fix = model_->resultOf(commandLine(command), *options);
     if (!fix.model) return fix.why_not;
     const auto pair = std::find_if(fix.model->pairs.begin(), fix.model->pairs.end(),
                                    [&](const PrimitivePair& candidate) { return candidate.a == primitive; });
-    if (pair == fix.model->pairs.end() || pair->b == kNoPrimitive) return "The fix triangulates this area differently.";
+    if (pair == fix.model->pairs.end() || pair->b == kNoPrimitive)
+        return "The fix triangulates this area differently, so pictures before and after would not correspond.";
     PicturePair drawn =
         drawPair({model_->before.lit(frames), primitive}, triangles, {fix.model->model.lit(frames), pair->b});
     if (drawn.before.empty()) return kNothingToSee;
@@ -132,7 +133,7 @@ std::string FindingPictures::drawAfter(const RemedyCommand& command, std::size_t
     const auto tenths = static_cast<std::uint64_t>(1000 * drawn.differing_share);
     result.caption = "difference" +
                      (drawn.gain == 1 ? std::string() : ", " + std::to_string(drawn.gain) + " times as bright") + ": " +
-                     std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " % of the pixels";
+                     std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " % of the pixels differ";
     return {};
 }
 
@@ -176,7 +177,7 @@ std::string figuresOf(const Finding& finding, const FindingPicture& picture) {
                figureHtml(picture.difference, kPlaceWidth, kPlaceHeight, picture.caption);
     const std::string why = picture.command.empty()
                                 ? "No picture of the fix was made, because no tspace command performs it."
-                                : "No picture " + command + ": " + picture.why_no_after;
+                                : "There is no picture " + command + ". " + picture.why_no_after;
     return figures + noFigureHtml(why);
 }
 

@@ -256,8 +256,8 @@ std::optional<Side> sideOf(const PicturedPrimitive& pictured) {
 PicturePair drawPair(const PicturedPrimitive& before, std::span<const std::size_t> triangles,
                      const PicturedPrimitive& after) {
     constexpr double kMinShare = 0.002;
-    // Fraction of the difference without base color below which the visible difference counts as hidden by the base
-    // color.
+    // The base color counts as hiding the difference if the difference with base color is below this fraction of the
+    // difference without it.
     constexpr double kHidden = 0.7;
     PicturePair pair;
     const std::optional<Side> a = sideOf(before), b = sideOf(after);

@@ -93,7 +93,7 @@ struct ModelSurface {
 struct PosedSurface {
     std::vector<Vec3> positions = {};
     std::vector<Vec3> normals = {};                  ///< one per vertex, or per corner if the file has no normals
-    std::vector<Vec4> tangents = {}, expected = {};  ///< one per vertex or per corner, like those of the surface
+    std::vector<Vec4> tangents = {}, expected = {};  ///< one per vertex or per corner, as in the unposed surface
     ShownSurface shown = {};
 };
 

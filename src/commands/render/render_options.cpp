@@ -133,13 +133,12 @@ OptionList renderOptions(RenderOptions& options) {
     add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything except writing the output."));
     addAllowExternal(list, options.file);
     add(list, picture,
-        choice(
-            "--show", "WHAT", kShows, options.show,
-            "Content of the picture. lit: the model under one light, with its normal maps; normals: N as colors; "
-            "tangents: T as colors; sign: the tangent sign w, with stripes where UVs are mirrored; error: the angle "
-            "between the file's tangents and those of --method; uv: the UV map with its islands; mapped: the normals "
-            "after normal mapping (those that lit shades), shown as colors; both: lit, divided by a line, with the "
-            "file's tangents on its left and those of --method on its right."));
+        choice("--show", "WHAT", kShows, options.show,
+               "Content of the picture. lit: the model under one light, with its normal maps; normals: N as colors; "
+               "tangents: T as colors; sign: the tangent sign w, with stripes where UVs are mirrored; error: the angle "
+               "between the file's tangents and those of --method; uv: the UV map with its islands; mapped: the "
+               "normals after normal mapping, as used by the mode lit, shown as colors; both: lit, divided by a line, "
+               "with the file's tangents on its left and those of --method on its right."));
     add(list, picture, viewOption(options));
     add(list, picture, lightOption(options));
     add(list, picture, sizeOption(options));

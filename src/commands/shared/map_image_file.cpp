@@ -105,8 +105,9 @@ double scaleOf(std::span<const ChosenPrimitive> chosen) {
         const std::string material = "the material " + inQuotes(one.primitive->material_name);
         const auto scale = static_cast<float>(scale_of(one));
         if (scale == 0 || !std::isfinite(scale))
-            failFile(ErrorCode::invalidFile,
-                     material + " sets the scale of its normal map to 0, so the map has no effect");
+            failFile(ErrorCode::invalidFile, material +
+                                                 " sets the scale of its normal map to 0 or to a value outside the "
+                                                 "range of floats, so the map cannot be used");
         if (scale_of(one) != scale_of(first)) {
             failFile(ErrorCode::invalidFile, material + " sets a different scale of the map than " +
                                                  inQuotes(first.primitive->material_name) +
@@ -172,7 +173,7 @@ std::optional<Affine> placeOf(const DrawnScene& drawn, const ChosenPrimitive& ch
     return place;
 }
 
-/// Transforms normals and tangents of the corners from `first` on to world space.
+/// Transforms the normals and tangents of all corners with index `first` or higher to world space.
 void placeCorners(const Affine& place, std::size_t first, MapMesh& mesh) {
     OwnedMesh& corners = mesh.corners;
     for (std::size_t i = first; i < corners.normals.size(); ++i) {
@@ -335,7 +336,7 @@ void writeMapImage(const FloatImage& image, ImageFormat format, unsigned bits, c
                    const OutputOptions& way) {
     const std::optional<std::vector<std::uint8_t>> file =
         format == ImageFormat::exr ? encodeExr(image, bits) : encodeByName(way.sink ? "" : output, image, bits);
-    if (!file) failFile(ErrorCode::outOfMemory, "the image cannot be encoded");
+    if (!file) failFile(ErrorCode::outOfMemory, "the output image cannot be encoded; there may not be enough memory");
     AtomicOutput files(way);
     files.add(output, std::span<const std::uint8_t>(*file));
     files.commit();

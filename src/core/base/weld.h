@@ -20,7 +20,8 @@ class Weldable {
     /// For the entries in [begin, end): sets roots[i] to kNoRoot if that vertex does not equal vertex list[i] (vertex i
     /// without a list). Returns whether any was set. All vertices have been hashed before.
     virtual bool compare(const std::uint32_t* list, std::size_t begin, std::size_t end, std::uint32_t* roots) = 0;
-    /// Returns a value below 0, 0, or above 0, in any order in which equal vertices are adjacent.
+    /// Compares vertices a and b: negative, 0 or positive. Any total order is allowed in which equal vertices are
+    /// adjacent.
     [[nodiscard]] virtual int order(std::uint32_t a, std::uint32_t b) const = 0;
 
   protected:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Screening test for noise (mayHaveNoise) on samples gathered in passes over vertices and triangles, so that a clean
-// mesh is neither welded nor sorted: first the kinks of some edges, then, if there are many kinks, two rings around the
-// first ends of these edges.
+// mesh is neither welded nor sorted. First it measures the kinks at sampled edges; if there are many, also the two-ring
+// neighborhoods of the start vertices of these edges.
 #include <algorithm>
 #include <bit>
 #include <cmath>

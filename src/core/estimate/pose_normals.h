@@ -16,11 +16,12 @@ Result<NormalReport> generatePoseNormals(const MeshView& mesh, const StridedSpan
                                          const NormalOptions& options, StridedSpan<Vec3> out,
                                          const Execution& execution = {});
 
-/// Finds the corners that share one normal in all poses. Returns for each corner the lowest such corner, or
-/// kNoSharedNormal if the corner does not contribute to the mean because its face visits the point twice. With
-/// weighting flat, every corner is separate.
+/// Flag of a corner that does not contribute to the mean because its face visits the point twice (findSharedNormals).
+inline constexpr std::uint32_t kNoSharedNormal = 0x80000000u;
+
+/// Finds the corners that share one normal in all poses. Returns for each corner the lowest such corner, with the flag
+/// kNoSharedNormal if the corner does not contribute to the mean. With weighting flat, every corner is separate.
 /// Errors: those of generateNormals, and invalidOption for faces that are not triangles.
-inline constexpr std::uint32_t kNoSharedNormal = 0x80000000u;  ///< flag that is combined with the number of the corner
 Result<std::vector<std::uint32_t>> findSharedNormals(const MeshView& mesh, const NormalOptions& options,
                                                      const Execution& execution = {});
 

@@ -32,8 +32,8 @@ constexpr double kKink = 1.5;    // ratio of the misfit of the sharp normals to 
 // flat cap that is triangulated as a fan from a vertex of its rim has no edge that distinguishes it from a dome; its
 // neighbors, the edges of a fillet, do.
 constexpr double kFillet = 1.3;
-// bend (as in kJump, in radians) from which kKink and kFillet apply fully: in fine meshes both misfits are small, and
-// their ratio is random
+// Bend, in radians, from which kKink and kFillet have full effect (bend: angle by which the longest edge would bend
+// with the curvature of the most bent edge). In fine meshes both misfits are small, and their ratio is random.
 constexpr double kBent = 1.25;
 // angle, in radians, by which the longest edge would bend with the curvature of the most bent edge, times the sine of
 // the angle between the two means
@@ -292,7 +292,7 @@ inline Floats bounded(Floats x) {
 }
 inline Floats squared(Floats x) { return x * x; }
 
-/// Returns the doubt in the fit: 0 or more, without limit; at 1, trust and doubt are equal.
+/// Returns the doubt d in the fitted normal, d >= 0. The blend weights the fit by 1 / (1 + d).
 inline Floats doubtIn(const PointSums& s, const Slopes& slopes, Vectors robust, Vectors sharp, Vectors fit) {
     const auto per = [](double limit) { return broadcast(static_cast<float>(1 / (limit * limit))); };
     const Flat turned = slopes.solve(s.xm, s.ym);

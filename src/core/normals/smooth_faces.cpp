@@ -27,8 +27,8 @@ constexpr std::size_t kMostRange = 4096, kLeastRange = 64, kRanges = 8;
 constexpr std::uint32_t kNoPoint = ~std::uint32_t{0};
 constexpr std::size_t kItemsPerTask = 1024;
 
-/// Corners as triangles for `best`: each corner forms a triangle with the next and the previous corner, in which only
-/// that corner contributes, to its component.
+/// Presents corners as triangles to `best`. The triangle of a corner consists of it and its two neighbors in the face;
+/// only the corner itself contributes, to the sum of its component.
 class ComponentCorners final : public TriangleGroups {
   public:
     /// flag of a corner whose face is degenerate and contributes nothing
@@ -132,7 +132,7 @@ struct RangeMemory {
     FaceRow* deciding;  ///< rows of the mesh, which determine hard edges; equal to `rows` without a pose
     LocalTriangle* triangles;
     Link* links;
-    /// entries of PointCorners, grouped by point, and the first entry of each point
+    /// `entries`: corners, grouped by point; `begins`: first entry of each point; `parents`: scratch for findComponents
     std::uint32_t *entries, *parents, *begins;
 };
 

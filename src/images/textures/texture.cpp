@@ -253,8 +253,8 @@ Result<FlippedImage> flipTexture(ByteSpan bytes, ImageFileFormat format) {
     if (source >= texels.channels || texels.channels == 1 || is_masked_out)
         return Error{ErrorCode::unsupportedFile, "the texture is gray, so it has no separate green channel"};
     if (texels.invert == nullptr)
-        return Error{ErrorCode::unsupportedFile,
-                     "it is " + texture->name() + ", whose blocks cannot store inverted green exactly" + kWritePng};
+        return Error{ErrorCode::unsupportedFile, "the image is " + texture->name() +
+                                                     ", whose blocks cannot store inverted green exactly" + kWritePng};
     FlippedImage flipped{
         {bytes.begin(), bytes.end()},
         {.format = format, .width = texture->size.width, .height = texture->size.height, .bits = texels.bits}};

@@ -436,11 +436,13 @@ Error checkCall(const MapImage& map, const MapSide& from, const MapSide& to, std
     if (options.bits != 8 && options.bits != 16 && options.bits != 32) {
         return makeError(ErrorCode::invalidOption, kNoElement, "bits must be 8, 16 or 32");
     }
-    if (Error error = checkSide(from, to, "the frames for which the map was made are needed, but `from` has no mesh");
+    if (Error error =
+            checkSide(from, to, "`from` has no mesh; set the UVs, normals and tangents for which the map was made");
         error.code != ErrorCode::ok) {
         return error;
     }
-    return checkSide(to, from, "the frames with which the map will be read are needed, but `to` has no mesh");
+    return checkSide(to, from,
+                     "`to` has no mesh; set the UVs, normals and tangents with which the output will be read");
 }
 
 }  // namespace

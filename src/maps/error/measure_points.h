@@ -43,9 +43,9 @@ struct BandSample {
     [[nodiscard]] std::array<double, 3> weights() const { return exact->weights(x, y); }
 };
 
-/// Bands of rows of the sample grid. Band b consists of the grid rows of kBandTexels texels, or of the remaining
-/// texels, from row b * kBandTexels * n + shift on; the first row follows the last one. Points outside a clamped image
-/// are skipped. Points are visited in blocks of 4 x 4, because nearby rays are traced faster together.
+/// Bands of rows of the sample grid. Band b starts at grid row b * kBandTexels * n + shift and covers kBandTexels rows
+/// of texels (the last band: the remaining rows). Row numbers wrap around. Points outside a clamped image are skipped.
+/// Points are visited in blocks of 4 x 4, because nearby rays are traced faster together.
 class SampleBands {
   public:
     static constexpr std::uint32_t kBandTexels = 16;

@@ -133,10 +133,10 @@ namespace {
 /// What a query looks for on a line.
 enum class Wanted : std::uint8_t {
     nearest,  ///< the triangle nearest to `from`, on either side
-    first,    ///< the first triangle along the direction
-    last,
-    any,  ///< the first triangle along the direction, with its front or its back
-    all   ///< all triangles, whose front and back faces are counted
+    first,    ///< the first front face along the direction
+    last,     ///< the last front face along the direction
+    any,      ///< the first triangle along the direction, facing either way
+    all       ///< all triangles, whose front and back faces are counted
 };
 
 /// A line and its best hit so far.

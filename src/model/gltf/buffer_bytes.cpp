@@ -11,7 +11,7 @@
 
 namespace tspace::gltf {
 
-/// Bytes that the first thread that needs them generates, once.
+/// Bytes that are generated once, on first use, by the thread that needs them.
 class BufferBytes::Later {
   public:
     explicit Later(std::shared_ptr<const ByteMaker> maker) : maker_(std::move(maker)) {}

@@ -456,7 +456,7 @@ void addDifferences(const std::vector<TangentUse>& uses, TextureTransform readin
         notes.push_back("the tangents " + difference(uses[0], use));
     }
     if (count > kMaxDifferences) {
-        notes.push_back("they do not fit " + std::to_string(count - kMaxDifferences) + " more textures");
+        notes.push_back("the tangents do not fit " + std::to_string(count - kMaxDifferences) + " more textures");
     }
 }
 

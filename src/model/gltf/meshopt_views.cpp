@@ -33,7 +33,7 @@ Value valueOf(const std::array<std::pair<const char*, Value>, count>& table, con
     for (const auto& [key, value] : table) {
         if (name == key) return value;
     }
-    failFile(ErrorCode::invalidFile, "there is no " + inQuotes(name), place);
+    failFile(ErrorCode::invalidFile, "the value " + inQuotes(name) + " is not defined", place);
 }
 
 template <class Value, std::size_t count>
@@ -206,7 +206,7 @@ void encodeMeshoptView(Document& document, std::size_t index, const MeshoptReque
     }
     Bytes data;
     if (!encodeMeshopt(coding, rows, data))
-        failFile(ErrorCode::internal, "meshoptimizer could not encode", join("/bufferViews", index));
+        failFile(ErrorCode::internal, "meshoptimizer could not encode the buffer view", join("/bufferViews", index));
     Json extension = Json::object();
     extension["buffer"] = data_buffer;
     extension["byteOffset"] = 0;

@@ -117,7 +117,7 @@ std::size_t freeFeatureId(const Document& document, std::span<const Primitive* c
 ElementData numbersOf(const NewVertices& vertices) {
     constexpr std::size_t kMaxShort = 65536, kMaxFloat = std::size_t{1} << 24;
     if (vertices.old_count > kMaxFloat)
-        failFile(ErrorCode::unsupportedFile, "it has too many feature IDs for a vertex attribute");
+        failFile(ErrorCode::unsupportedFile, "the primitive has too many feature IDs for a vertex attribute");
     const bool is_short = vertices.old_count <= kMaxShort;
     ElementData data{.component = is_short ? ComponentType::u16 : ComponentType::f32,
                      .count = vertices.sources.size(),

@@ -227,10 +227,11 @@ class FileFinder {
             const std::optional<std::string> path = existing(text.substr(0, at));
             if (!path) continue;
             if (warned_paths_.insert(text).second)
-                warnings_.push_back("the file " + inQuotes(*path, 200) + " is read for the path " +
-                                    inQuotes(unquoted(text), 200) +
-                                    ", which does not exist: '#' begins a comment only at the start of a line, and "
-                                    "other programs may not find the file");
+                warnings_.push_back("the path " + inQuotes(unquoted(text), 200) +
+                                    " does not exist, so the text from '#' on was taken as a comment, and " +
+                                    inQuotes(*path, 200) +
+                                    " was read; remove that text, because '#' begins a comment only at the start of a "
+                                    "line in MTL files, and other programs may not find the file");
             return *path;
         }
         return withSlashes(unquoted(text));

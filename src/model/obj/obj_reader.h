@@ -72,7 +72,7 @@ struct Texture {
     std::string file = {};
     Path folder = {};
     [[nodiscard]] bool used() const { return !file.empty(); }
-    /// Returns the path, which is equal for textures that refer to one file by the same path.
+    /// Returns `folder` and `file` joined. Used as a key: different spellings of one file give different paths.
     [[nodiscard]] std::string path() const { return (folder / file).string(); }
 };
 

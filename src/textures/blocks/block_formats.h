@@ -79,7 +79,7 @@ class Bc4Format {
         tryRounded(least + first * range, most - last * range, 5.0F, tryPalettes);
     }
 
-    /// Tries all pairs of endpoints from one quantization step below the range to one step above it.
+    /// Tries all pairs of integer endpoints from floor(least) - 1 to floor(most) + 2, clamped to the valid values.
     template <class Try>
     void forNear(float least, float most, const Try& tryPalettes) const {
         const int from = std::max(0, static_cast<int>(least) - 1);

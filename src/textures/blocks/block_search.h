@@ -38,7 +38,7 @@ struct ChannelBlock {
 /// Palette of a block: its values are origin + step * c, where c is the number that a code represents.
 struct Palette {
     float origin = 0, step = 0;
-    float kind = 0;  ///< block kind in the encoding of the format
+    float kind = 0;  ///< BC4: number of steps between the endpoints; EAC: index of the modifier table
 
     bool operator==(const Palette&) const = default;
 };

@@ -230,8 +230,7 @@ TEST(FindingPictures, ExplainAMissingSecondPicture) {
     EXPECT_FALSE(none.before.empty());
     EXPECT_EQ(none.command, "");
     const FindingPicture open = pictureOf(good, findingAt(FindingCode::packedFramesDiffer, {0}));
-    EXPECT_EQ(open.why_no_after,
-              "No picture of the fix was made, because its command contains a value that must be chosen.");
+    EXPECT_EQ(open.why_no_after, "The command contains a value that must be chosen.");
 }
 
 }  // namespace

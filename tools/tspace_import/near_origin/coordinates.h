@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Coordinates of a file, and the file with replaced coordinates. One reader per format.
+// Reads the coordinates of a file, and writes the file with other coordinates. There is one reader per format.
 #pragma once
 
 #include <cstddef>

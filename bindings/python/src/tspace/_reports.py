@@ -9,9 +9,10 @@ from typing import NamedTuple
 class TangentReport(NamedTuple):
     """Counts of triangles, groups and defects of the input. Invalid geometry never makes a call fail."""
 
-    #: `mikktspace`: the input would drive the reference into quadratic time, so its last step was skipped. Either
-    #: its sort (with `reference`): the corrected pairing was used for the last bucket; only crafted inputs cause
-    #: this. Or its angular test: a group of more than 4096 faces whose tangents spread too far was not split.
+    #: `mikktspace`: the input would drive the reference into quadratic time, so one of its steps was skipped. This
+    #: is either the sort (with `reference`; the corrected pairing was used for the last bucket; only crafted inputs
+    #: cause this), or the angular test (a group of more than 4096 faces whose tangents spread too far was not
+    #: split).
     reference_order_abandoned: bool
     #: Processed triangles, after triangulation of quads and n-gons.
     triangle_count: int

@@ -93,7 +93,8 @@ Vec3 offsetBetween(const Vec3& from, const Vec3& to);
 /// Corners that keep the offsets of the file while tangents are repaired, in targets that have offsets.
 struct KeptOffsets {
     std::span<const std::uint32_t> vertices = {};  ///< vertex of the pool for each corner
-    const std::vector<bool>& is_new;               ///< one per corner
+    /// one per corner; true: the corner gets new offsets, false: it keeps those of the file
+    const std::vector<bool>& is_new;
 };
 
 class MorphTangents {

@@ -135,8 +135,8 @@ struct PrimitiveGeometry {
     std::vector<std::uint32_t> face_sizes = {};  ///< number of corners of each face; empty: triangles
     std::vector<std::uint32_t> smoothing_groups = {};  ///< group of each face, or empty
     Repairs repairs = {};                              ///< repairs of this primitive (PoolView::repairs_tangents)
-    /// Triangles of other primitives that contribute to its normals; null: none. Must be null
-    /// for primitives with larger faces.
+    /// Triangles of other primitives that contribute to its normals; null: none. Must be null for primitives with faces
+    /// of more than three corners.
     std::shared_ptr<const Surroundings> around = {};
 };
 

@@ -118,8 +118,9 @@ Result<std::vector<Vec4>> tangentsOnFaces(const MeshView& triangles, const QuadF
 // Faces for computing or comparing tangents: triangles, or their original quads.
 
 /// Returns the quads for the option `faces`; none (quad_count 0) means triangles. If tangents exist and fit clearly
-/// better to quads, returns these quads. Otherwise `quads` uses the pairs by shape, and so does `automatic` for a mesh
-/// without tangents that Blender wrote and most of whose triangles have the edge pattern of Blender's quads.
+/// better to quads, returns these quads. Otherwise triangles are paired by shape if `faces` is `quads`; also if it is
+/// `automatic`, there are no tangents, Blender wrote the mesh, and most of its triangles have the edge pattern of
+/// Blender's quads.
 ///
 /// triangles    as required by fitQuads
 /// stored       one tangent per vertex, or empty

@@ -93,7 +93,7 @@ struct EdgeMoments {
     Floats weight;
     Floats du, dv;              ///< w d
     Floats uu, uv, vv;          ///< w d d^T
-    Floats f0, f1, f2;          ///< w f
+    Floats f0, f1, f2;          ///< w u^2/2, w u v, w v^2/2
     Floats c0, c1, c2, c3;      ///< w u^3/2, w u^2 v/2, w u v^2/2, w v^3/2
     Floats q0, q1, q2, q3, q4;  ///< w u^4/4, w u^3 v/2, w u^2 v^2/4, w u v^3/2, w v^4/4
 

@@ -103,7 +103,8 @@ class Fan {
         room.giveBack(place);
     }
 
-    /// Returns the current number of paths, or 0 if the fan becomes complex.
+    /// Adds the path `grown`, joined with the paths that it meets. Returns the number of paths, or 0 if the fan becomes
+    /// complex.
     static std::uint32_t join(ManyPaths& many, std::uint32_t count, ManyPaths::Path grown) {
         const auto [next, previous] = grown;
         std::uint32_t kept = 0;

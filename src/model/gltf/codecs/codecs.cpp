@@ -69,7 +69,7 @@ std::string attributeFault(const MeshoptCoding& coding) {
 std::string indexFault(const MeshoptCoding& coding) {
     if (coding.stride != 2 && coding.stride != 4)
         return "compressed indices must have 2 or 4 bytes, not " + std::to_string(coding.stride);
-    if (coding.filter != MeshoptFilter::none) return "indices have no filter";
+    if (coding.filter != MeshoptFilter::none) return "the data has a filter, which is not allowed for indices";
     if (coding.mode == MeshoptMode::triangles && coding.count % 3 != 0)
         return "the number of triangle indices, " + std::to_string(coding.count) + ", is not a multiple of 3";
     return {};
