@@ -39,9 +39,9 @@ class RangeEvidence {
         const double stored = share(stored_fit_), moved = share(moved_fit_), negative = share(negative_);
         const std::string read = "; they were read as vectors from -1 to 1";
         if (negative_ > 0 && stored >= kHalf && stored > moved)
-            return "its floats are " + lengths() + " as stored, and some are below 0" + read;
+            return "the floats of the image are " + lengths() + " as stored, and some are below 0" + read;
         if (negative_ == 0 && stored >= kMax && moved <= kFew && (!has_z_ || pointsUp()))
-            return "its floats are " + lengths() + " as stored, but not if decoded as 2c - 1" + read;
+            return "the floats of the image are " + lengths() + " as stored, but not if decoded as 2c - 1" + read;
         if (negative >= kSome && stored >= moved)
             return "floats of " + std::to_string(negative_) + " of " + std::to_string(count_) + " texels are below 0" +
                    read + ", but few are " + lengths() +

@@ -249,8 +249,8 @@ TEST(PackedGltf, KeepsTheBaseOfMorphTargets) {
     EXPECT_FALSE(outcome.report.primitives[0].tangents_dropped || outcome.report.primitives[0].normals_dropped);
     ASSERT_EQ(outcome.report.primitives[0].notes.size(), 1u);
     EXPECT_EQ(outcome.report.primitives[0].notes[0],
-              "its NORMAL and TANGENT were kept in addition to the packed frames, because morph targets have such "
-              "deltas");
+              "its NORMAL and TANGENT were kept in addition to the packed frames, because its morph targets have "
+              "deltas for them");
 }
 
 TEST(PackedGltf, UpdatesWithReplacedTangentsOnlyOnRequest) {

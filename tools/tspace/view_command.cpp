@@ -48,7 +48,7 @@ Result<ViewReport> view(const ViewArguments& arguments, const PageOrigin& origin
     const std::string page = pagePath();
     if (page.empty())
         return Error{ErrorCode::cannotRead,
-                     "this build of tspace does not include the page; run scripts/web to build it"};
+                     "this build of tspace does not include the template of the page; run scripts/web to build it"};
     progressLine().update(arguments.input, "checking", 0, 0);
     return writeViewPage(arguments.input, arguments.output, page, arguments.file, origin);
 }

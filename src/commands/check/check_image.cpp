@@ -158,7 +158,7 @@ std::string imageText(const CheckReport& report) {
     } else if (image.content == "picture") {
         return text + "not a normal map";
     } else if (image.content == "constant") {
-        return text + "one color";
+        return text + "a single color";
     } else if (image.content == "objectSpace") {
         return text + "a normal map, but not in tangent space";
     } else {

@@ -79,7 +79,7 @@ struct FrameHealth {
 /// Fails if generateTangents fails, which happens only if memory runs out.
 Result<FrameHealth> examineTangents(const TangentView& mesh, const CheckOptions& options);
 
-/// Examines tangents like the overload above, with a surface that the caller has already computed.
+/// Examines tangents that should follow mesh.uvs, with `surface` that the caller has computed from `mesh`.
 Result<FrameHealth> examineTangents(const TangentView& mesh, const Surface& surface, const CheckOptions& options);
 
 }  // namespace tspace

@@ -140,7 +140,7 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
         table.addRow({"hint", "no material needs tangents; use --all to add them anyway"});
     }
     if (totals.triangle_count != 0) {
-        table.addRow({"computed", counted(totals.triangle_count, "triangle")});
+        table.addRow({"computed", "tangents on " + counted(totals.triangle_count, "triangle")});
         if (totals.on_quads != 0) {
             table.addRow({"faces", fmt::format("{} in {}, triangles elsewhere", counted(totals.quad_count, "quad"),
                                                counted(totals.on_quads, "primitive"))});

@@ -53,7 +53,7 @@ std::string whyUnchanged(const JudgedMap& map, bool claims_srgb) {
         return "the map is in world space; use tspace convert-map --from world";
     if (analysis.content == MapContent::hemiOctahedral)
         return "the map is hemi-octahedrally encoded, which tspace does not decode";
-    if (analysis.may_be_octahedral) return "its two channels may store octahedral encoding (see tspace check)";
+    if (analysis.may_be_octahedral) return "its two channels may use octahedral encoding (see tspace check)";
     if (analysis.is_doubtful)
         return "its two channels may use another encoding, because they are not the slopes of any height field (see "
                "tspace check)";

@@ -171,7 +171,8 @@ class PackedWriter {
         if (!keeps_more) return;
         report.notes.push_back(
             std::string(dropped.tangents ? "its NORMAL was kept" : "its NORMAL and TANGENT were kept") +
-            " in addition to the packed frames, because its morph targets have deltas for this");
+            " in addition to the packed frames, because its morph targets have deltas for " +
+            (dropped.tangents ? "it" : "them"));
     }
 
     Editor& editor_;

@@ -130,7 +130,7 @@ struct RaySurface::State {
 
 namespace {
 
-/// What a query looks for on a line.
+/// Triangles that a query searches for along a line.
 enum class Wanted : std::uint8_t {
     nearest,  ///< the triangle nearest to `from`, on either side
     first,    ///< the first front face along the direction

@@ -40,7 +40,8 @@ class NamedFiles {
     [[nodiscard]] Path resolve(std::string_view uri, const std::string& place) const {
         return resolve(folder_, uri, place);
     }
-    /// Returns the path for a URI in a file of another folder, like the overload above.
+    /// Returns the path of the file that `uri` refers to, in a file of the folder `folder`. Fails as resolve(uri,
+    /// place).
     [[nodiscard]] Path resolve(const Path& folder, std::string_view uri, const std::string& place) const;
 
     [[nodiscard]] Kind kindOf(const Path& file) const;

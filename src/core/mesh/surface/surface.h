@@ -115,8 +115,8 @@ struct SurfaceFrame {
     /// Sine of the maximum angle by which rounding of the positions can have rotated `tangent`; from 1 on, any
     /// direction is possible.
     float tangent_error = 0;
-    /// Sign of the UV determinant; 0 if the UVs have no area, or so little that rounding decides. In the latter case
-    /// `tangent` may also point in the opposite direction.
+    /// Sign of the UV determinant; 0 if the UVs have no area, or so little that rounding decides its sign. If rounding
+    /// decides, `tangent` may also point in the opposite direction.
     std::int8_t orientation = 0;
 };
 
