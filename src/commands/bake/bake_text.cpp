@@ -98,7 +98,7 @@ void addBakedRows(const BakeFileReport& done, const std::string& out_mesh, Table
         table.addRow({"model", fmt::format("{}, with its frames and maps", unbroken(out_mesh))});
     if (done.frames_made)
         table.addRow({"note", "missing tangent frames of the low poly were computed, as by tspace generate"});
-    if (done.matched_by_name) table.addRow({"note", "meshes were matched by name"});
+    if (done.matched_by_name) table.addRow({"note", "low-poly and high-poly meshes were matched by name"});
     for (const std::string& warning : done.warnings) table.addRow({"warning", printable(warning)});
 }
 

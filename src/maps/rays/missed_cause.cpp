@@ -168,18 +168,19 @@ std::string likelyPlacement(const Trial& trial, double size, double high_size, d
             if (scale != 1) best += (best.empty() ? "scale it by " : " and scale it by ") + shortNumber(scale);
         }
     }
-    return best.empty() ? best : "its axes or units differ: " + best + " to align it with the low poly";
+    return best.empty() ? best : "the high poly's axes or units differ: " + best + " to align it with the low poly";
 }
 
 }  // namespace
 
 std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySurface& surface, double reach) {
     const Trial trial(surface, samplesOf(low));
-    if (trial.backHitShare(reach) >= 0.5) return "its faces point inward: rays hit only back faces";
+    if (trial.backHitShare(reach) >= 0.5) return "the high poly's faces point inward: rays hit only back faces";
     const double size = PositionBox(low.positions).diagonal(), high_size = PositionBox(high.positions).diagonal();
     const double usual = std::max(reach, kUsualReach * size);
     const auto furtherAway = [&](double other) {
-        return "it is farther away than the maximum ray distance: --reach " + shortNumber(other) + " reaches it";
+        return "the high poly is farther away than the maximum ray distance: --reach " + shortNumber(other) +
+               " reaches it";
     };
     if (usual > reach && trial.met(usual) >= kMeets) return furtherAway(usual);
     const std::string moved = likelyPlacement(trial, size, high_size, usual, kMeets);
@@ -187,7 +188,7 @@ std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySur
     for (const double factor : {2.0, 4.0, 8.0}) {
         if (trial.met(factor * usual) >= kMeets) return furtherAway(factor * usual);
     }
-    if (trial.backHitShare(usual) >= 0.5) return "its faces point inward: rays hit only back faces";
+    if (trial.backHitShare(usual) >= 0.5) return "the high poly's faces point inward: rays hit only back faces";
     return {};
 }
 

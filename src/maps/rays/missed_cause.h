@@ -18,11 +18,10 @@ struct SharedRays {
     std::shared_ptr<const RaySurface> surface = {};
 };
 
-/// Returns the likely reason for the misses, as part of a sentence about the high poly: inward faces, a reach that is
-/// too short, a different up axis, or a different unit. Inward faces are named if at least half of the rays hit only
-/// back faces. Every other correction is tried, and named if at least four of five rays then hit. Returns an empty
-/// string if no reason is found. Requires checked meshes. `surface`: ray structure of the high poly; `reach`: the reach
-/// used by the rays.
+/// Returns the likely reason for the misses, as a clause: inward faces, a reach that is too short, a different up axis,
+/// or a different unit. Inward faces are named if at least half of the rays hit only back faces. Every other correction
+/// is tried, and named if at least four of five rays then hit. Returns an empty string if no reason is found. Requires
+/// checked meshes. `surface`: ray structure of the high poly; `reach`: the reach used by the rays.
 std::string causeOfMisses(const LowPoly& low, const HighPoly& high, const RaySurface& surface, double reach);
 
 /// Diagnoses a bake with hits in most places. Returns the change of axes or unit with which rays from more than 95 % of
