@@ -347,7 +347,7 @@ Finding mixed(const std::string& name, const GreenTest& test) {
         FindingCode::greenMixed, Severity::warning, blocks, "blocks",
         "bumps probably look like dents in one part: green seems to point down in one part of the normal map " + name +
             " (" + rectText(test.down_part) + " from the top left) and up in another (" + rectText(test.up_part) +
-            "): " + "green points down in " + countText(blocks, "blocks") + " of 16 x 16 pixels with relief (" +
+            "): green points down in " + countText(blocks, "blocks") + " of 16 x 16 pixels with relief (" +
             shareText(blocks.share()) + ")");
 }
 
