@@ -13,12 +13,16 @@
 
 namespace tspace {
 
+/// Returns whether this many bytes can be mapped now.
+inline bool canMap(std::size_t bytes) {
+    void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return memory != MAP_FAILED && munmap(memory, bytes) == 0;
+}
+
 /// Throws OutOfMemory unless this many bytes can be mapped now. Call it before libraries that may not handle failed
 /// allocations correctly, with more bytes than they need.
 inline void requireMemory(std::size_t bytes) {
-    void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (memory == MAP_FAILED) throwOutOfMemory();
-    munmap(memory, bytes);
+    if (!canMap(bytes)) throwOutOfMemory();
 }
 
 /// Library that stays loaded until the process ends.

@@ -14,9 +14,9 @@
 namespace tspace::test {
 namespace {
 
-/// Writes a wavy grid that is large enough for helper threads and arenas.
-void writeGrid(const TempFolder& folder) {
-    folder.write("grid.obj", "mtllib folded.mtl\n" + gridObj(150, 0.01, "usemtl skin\n"));
+/// Writes a wavy grid; the default is large enough for helper threads and arenas.
+void writeGrid(const TempFolder& folder, int columns = 150) {
+    folder.write("grid.obj", "mtllib folded.mtl\n" + gridObj(columns, 0.01, "usemtl skin\n"));
     EXPECT_EQ(runTool(folder, "generate grid.obj --all -q -o grid.glb").exit_code, 0);
 }
 
@@ -36,7 +36,8 @@ ToolRun runWithin(const TempFolder& folder, const std::string& arguments, std::u
 
 /// Runs a command with each limit. It must end as without a limit, or with exit code 5, a message of one line, and no
 /// output.
-void sweep(const TempFolder& folder, const std::string& arguments) {
+void sweep(const TempFolder& folder, const std::string& arguments, std::uint64_t least = 16, std::uint64_t most = 256,
+           std::uint64_t step = TSPACE_LIMIT_STEP) {
     const std::set<std::string> inputs = folder.files();
     const ToolRun unlimited = runTool(folder, arguments, kCopy);
     if (unlimited.exit_code > 1) {
@@ -47,8 +48,7 @@ void sweep(const TempFolder& folder, const std::string& arguments) {
         for (const std::string& name : folder.files())
             if (!inputs.contains(name)) std::filesystem::remove(folder.path(name));
     };
-    constexpr std::uint64_t kLeast = 16, kMost = 256;
-    for (std::uint64_t megabytes = kLeast; megabytes <= kMost; megabytes += TSPACE_LIMIT_STEP) {
+    for (std::uint64_t megabytes = least; megabytes <= most; megabytes += step) {
         removeOutputs();
         const ToolRun run = runWithin(folder, arguments, megabytes << 10);
         const std::string where = arguments + ", " + std::to_string(megabytes) + " MB: " + run.err;
@@ -77,6 +77,15 @@ TEST(ScarceAddresses, EndNoCommandBySignalOrHang) {
           "finish grid.obj -o new.glb", "map-error bump.png grid.glb --high grid.glb", "view grid.glb -o new.html",
           "check bump.png"})
         sweep(folder, command);
+}
+
+/// Embree's threads wait for each other forever if memory runs out while several of them build the hierarchy.
+TEST(ScarceAddresses, EndNoSearchForSurfacesByAHangOnManyThreads) {
+    const TempFolder folder;
+    installCopy(folder);
+    writeBumpMap(folder);
+    writeGrid(folder, 20);
+    sweep(folder, "map-error bump.png grid.glb --high grid.glb --threads 12", 84, 130, 2);
 }
 
 }  // namespace

@@ -41,6 +41,25 @@ TEST(Generate, QuietPrintsNothing) {
     EXPECT_TRUE(folder.has("out.glb"));
 }
 
+/// Two triangles with vertices of their own become a sheet of four vertices.
+TEST(Generate, DoesNotCallMergedVerticesSplit) {
+    const float numbers[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0,  // positions
+                             0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1,  // normals
+                             0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1};                   // UVs
+    const TempFolder folder;
+    folder.write("soup.bin", std::string(reinterpret_cast<const char*>(numbers), sizeof numbers));
+    folder.write("soup.gltf", R"({"asset":{"version":"2.0"},"buffers":[{"uri":"soup.bin","byteLength":192}],
+        "bufferViews":[{"buffer":0,"byteLength":72},{"buffer":0,"byteOffset":72,"byteLength":72},
+                       {"buffer":0,"byteOffset":144,"byteLength":48}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":6,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+                     {"bufferView":1,"componentType":5126,"count":6,"type":"VEC3"},
+                     {"bufferView":2,"componentType":5126,"count":6,"type":"VEC2"}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2}}]}]})");
+    const ToolRun run = runTool(folder, "generate soup.gltf --all --overwrite-normals -o out.glb");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("6 -> 4 (2 merged)"), std::string::npos) << run.out;
+}
+
 TEST(Generate, WritesBitangentsOfObjFilesToo) {
     const TempFolder folder;
     writeFoldedObj(folder, "folded.obj");

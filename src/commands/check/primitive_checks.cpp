@@ -51,8 +51,9 @@ bool canRecomputeNormals(const ScenePrimitive& primitive) {
 }
 
 /// Returns the remedy for normals that have no direction.
-Remedy invalidNormalsRemedy(const ScenePrimitive& primitive) {
-    if (!canRecomputeNormals(primitive))
+Remedy invalidNormalsRemedy(const PrimitiveFacts& facts) {
+    if (facts.surface.area == 0) return {"Export the mesh again: its triangles have no area, so they have no normals."};
+    if (!canRecomputeNormals(facts.primitive))
         return {"Export the normals again; tspace cannot compute new ones that fit the other data of the primitive."};
     return usualRemedy(FindingCode::normalsNotFinite);
 }
@@ -85,7 +86,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
         facts.add(FindingCode::normalsNotFinite, Severity::error, not_finite, "vertices",
                   "the surface has black spots: the normals of " + countText(not_finite, "vertices") +
                       " are NaN or infinite");
-        setRemedy(facts.findings.back(), invalidNormalsRemedy(facts.primitive));
+        setRemedy(facts.findings.back(), invalidNormalsRemedy(facts));
     }
     if (not_unit.count > 0) {
         // A single normal of length 0 gives NaN in shaders. Other lengths make the relief steeper or flatter in readers
@@ -102,7 +103,7 @@ void checkNormalValues(PrimitiveFacts& facts) {
                       (zero_count != 0 ? "; " + std::to_string(zero_count) + " of them have length 0" : ""));
         if (zero_count != 0) {
             // Normals of length 0 cannot be normalized.
-            setRemedy(facts.findings.back(), invalidNormalsRemedy(facts.primitive));
+            setRemedy(facts.findings.back(), invalidNormalsRemedy(facts));
         }
     }
 }
@@ -312,6 +313,13 @@ void reportAttributeFaults(PrimitiveFacts& facts) {
                   was_read ? "the surface may be lit from wrong directions: the elements of NORMAL " + fault.why
                            : "the elements of " + name + " cannot be read: " + fault.why);
         setRemedy(facts.findings.back(), attributeRemedy(facts.primitive, fault));
+    }
+    for (const SceneComponentFault& fault : facts.primitive.component_faults) {
+        const Tally all{.count = fault.vertex_count, .total = fault.vertex_count};
+        facts.add(FindingCode::attributeUnreadable, Severity::warning, all, "vertices",
+                  "some programs reject the file or read other values: the elements of " + fault.name + " are " +
+                      fault.found + ", but glTF allows only " + fault.allowed + "; tspace uses them unchanged");
+        setRemedy(facts.findings.back(), {"Export the attribute again, as " + fault.allowed + "."});
     }
 }
 

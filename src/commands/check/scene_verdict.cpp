@@ -46,6 +46,7 @@ class PrimitiveKey {
             words_.push_back(fault.name);
             words_.push_back(fault.why);
         }
+        for (const SceneComponentFault& fault : primitive.component_faults) words_.push_back(fault.name + fault.found);
         for (const SceneMorphTarget& target : primitive.morph_targets)
             arrays_.insert(arrays_.end(), {target.positions.data(), target.normals.data(), target.tangents.data()});
         for (const TangentUse& use : primitive.uses) {

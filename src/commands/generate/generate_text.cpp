@@ -146,7 +146,9 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
                                                counted(totals.on_quads, "primitive"))});
         }
         const std::uint64_t before = totals.vertices.before(), after = totals.vertices.after();
-        table.addRow({"vertices", fmt::format("{} -> {} ({} split)", before, after, after - before)});
+        const std::string change =
+            before <= after ? fmt::format("{} split", after - before) : fmt::format("{} merged", before - after);
+        table.addRow({"vertices", fmt::format("{} -> {} ({})", before, after, change)});
         const std::string faults = inputFaultsText(totals);
         if (!faults.empty()) table.addRow({"in the input", faults});
         table.addRow({"repaired", repairedText(totals.sanitize)});

@@ -108,7 +108,7 @@ void warnOfIdleNormals(const GenerateOptions& options, GenerateReport& report) {
         warn(idle,
              options.normals.overwrite
                  ? "the file has no primitive whose normals can be recomputed"
-                 : "no normals were computed and existing ones were kept; use --overwrite-normals to recompute them",
+                 : "no normals were computed; --overwrite-normals recomputes existing ones",
              report);
     }
     warnOfNoise(options, any_made, report);

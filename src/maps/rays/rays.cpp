@@ -277,10 +277,10 @@ bool makeDevices(RaySurface::State& state, unsigned threads) {
     return state.device != nullptr && state.second_device != nullptr;
 }
 
-/// Builds the BVH on all threads of the call.
-RTCError buildScene(const RaySurface::State& state, Parallel& parallel) {
+/// Builds the BVH on at most `threads` threads.
+RTCError buildScene(const RaySurface::State& state, std::size_t threads, Parallel& parallel) {
     std::atomic<RTCError> failure = RTC_ERROR_NONE;
-    parallel.forTasks(parallel.width(), [&](std::size_t) {
+    parallel.forTasks(threads, [&](std::size_t) {
         embree().joinCommitScene(state.scene);
         // Embree stores error codes per thread.
         if (const RTCError error = embree().getDeviceError(state.device); error != RTC_ERROR_NONE) failure = error;
@@ -314,7 +314,13 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
     // inside Embree may terminate the process.
     constexpr std::size_t kDeviceBytes = std::size_t{16} << 20, kThreadBytes = std::size_t{1} << 20,
                           kTriangleBytes = 256;
-    requireMemory(kDeviceBytes + kThreadBytes * parallel.width() + kTriangleBytes * (corners.size() / 3));
+    const std::size_t needed = kDeviceBytes + kThreadBytes * parallel.width() + kTriangleBytes * (corners.size() / 3);
+    requireMemory(needed);
+    // If an allocation fails while several threads build the BVH, Embree's threads may wait for each other forever.
+    // malloc in glibc reserves twice 64 MB of addresses for each thread, which may leave too few for Embree. One thread
+    // builds the BVH if there are not enough addresses for both.
+    constexpr std::size_t kHeapBytes = std::size_t{128} << 20;
+    const std::size_t builders = canMap(needed + kHeapBytes * parallel.width()) ? parallel.width() : 1;
     if (has_embree_failed)
         return makeError(ErrorCode::outOfMemory, kNoElement, "Embree ran out of memory earlier in this process");
     if (!makeDevices(*state, parallel.width())) {
@@ -337,7 +343,7 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
     api.attachGeometry(state->scene, geometry);
     api.releaseGeometry(geometry);
     RTCError error = api.getDeviceError(state->device);  // error of the calls above
-    if (error == RTC_ERROR_NONE) error = buildScene(*state, parallel);
+    if (error == RTC_ERROR_NONE) error = buildScene(*state, builders, parallel);
     if (error == RTC_ERROR_INVALID_ARGUMENT || error == RTC_ERROR_INVALID_OPERATION)
         return makeError(ErrorCode::internal, kNoElement, "Embree failed with error code %u",
                          static_cast<unsigned>(error));

@@ -29,6 +29,37 @@ std::optional<TextureReading> readOwnTexture(const Document& document, const Jso
     return readTexture(document, *texture, join(place, key));
 }
 
+/// Returns text such as "normalized 8-bit unsigned integers".
+std::string componentText(const Accessor& accessor) {
+    if (accessor.component == ComponentType::f32) return "floats";
+    const bool is_signed = accessor.component == ComponentType::i8 || accessor.component == ComponentType::i16;
+    return std::string(accessor.normalized ? "normalized " : "") + std::to_string(8 * bytesOf(accessor.component)) +
+           "-bit " + (is_signed ? "signed" : "unsigned") + " integers" +
+           (accessor.normalized ? "" : " that are not normalized");
+}
+
+/// Returns nullopt if glTF, with or without KHR_mesh_quantization, allows the component type of an attribute. NORMAL
+/// and TANGENT are examined elsewhere.
+std::optional<SceneComponentFault> componentFault(const Accessor& accessor, const std::string& name) {
+    const ComponentType type = accessor.component;
+    const bool is_short_unsigned = type == ComponentType::u8 || type == ComponentType::u16;
+    bool is_allowed = true;
+    const char* allowed = "floats or normalized unsigned integers of 8 or 16 bits";
+    if (name.starts_with("COLOR_") || name.starts_with("WEIGHTS_")) {
+        is_allowed = type == ComponentType::f32 || (is_short_unsigned && accessor.normalized);
+    } else if (name.starts_with("JOINTS_")) {
+        is_allowed = is_short_unsigned && !accessor.normalized;
+        allowed = "unsigned integers of 8 or 16 bits that are not normalized";
+    } else if (name.starts_with("TEXCOORD_")) {
+        is_allowed = type != ComponentType::u32;
+    } else if (name == "POSITION") {
+        is_allowed = type != ComponentType::u32;
+        allowed = "floats";
+    }
+    if (is_allowed) return {};
+    return SceneComponentFault{name, componentText(accessor), allowed, accessor.count};
+}
+
 /// Reads the first inverse bind matrix of a skin; the identity if there is none, as the specification requires.
 Affine readFirstBind(const Document& document, const Json& skin, const std::string& place) {
     const std::size_t count = rootArray(document, "accessors").size();
@@ -320,6 +351,10 @@ class PrimitiveLoader {
                      "are unsigned integers, which glTF does not allow. They are used unchanged, so no normal points "
                      "toward -x, -y or -z; if they encode (n + 1) / 2, all of them are wrong",
                  .vertex_count = primitive.vertex_count});
+        for (const auto& [name, accessor] : primitive.attributes) {
+            if (auto fault = componentFault(readAccessor(document_, accessor), name))
+                result.component_faults.push_back(*std::move(fault));
+        }
         result.tangents_not_read = result.tangents.empty() && document_.may_hide_tangents;
         for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
             const AttributeList& list = primitive.targets[i];

@@ -129,6 +129,14 @@ struct SceneAttributeFault {
     std::size_t vertex_count = 0;  ///< number of vertices of the primitive
 };
 
+/// Attribute whose component type glTF does not allow, but which can be read.
+struct SceneComponentFault {
+    std::string name = {};
+    std::string found = {};    ///< its components, such as "32-bit unsigned integers"
+    std::string allowed = {};  ///< such as "floats"
+    std::size_t vertex_count = 0;
+};
+
 /// Returns "COLOR_0", or "NORMAL of morph target 2"; `target` -1: the primitive itself.
 inline std::string attributeText(const std::string& name, std::ptrdiff_t target) {
     return target < 0 ? name : name + " of morph target " + std::to_string(target);
@@ -176,6 +184,7 @@ struct ScenePrimitive {
     SharedArray<Vec4> tangents = {};                     ///< one per vertex; empty: absent
     std::vector<SceneTangentFault> tangent_faults = {};  ///< faults of tangents that are ignored
     std::vector<SceneAttributeFault> attribute_faults = {};
+    std::vector<SceneComponentFault> component_faults = {};
     /// `tangents` is empty, but the importer cannot tell whether the file has tangents.
     bool tangents_not_read = false;
     std::vector<SharedArray<Vec2>> uv_sets = {};  ///< entry n: TEXCOORD_n, empty if absent; v points down
