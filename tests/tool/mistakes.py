@@ -123,11 +123,16 @@ def test_inputs():
         if name not in ("generate", "identify", "inspect", "check"):
             for wrong in ("folder", "folder.glb", "folder.png"):
                 expect(line_of(name, model=wrong), 4, f"'{wrong}' is a folder")
+    # The error message lists the formats that are lossless for this input.
+    for image, endings in (("map.png", ".png"), ("map.jpg", ".jpg, .jpeg or .png"), ("map.tga", ".png")):
+        expect(["flip-green", image, "-o", "out.pdf"], 2, f"the output 'out.pdf' must end in {re.escape(endings)}$")
     for name in of_images:
         expect(line_of(name, image="none.png"), 4, "none.png: the file 'none.png' does not exist")
         expect(line_of(name, image="text.txt"), 3, "text.txt: the image")
         for wrong in ("a.obj", "none.gltf", "none.STL", "none.fbx", "none.vrm"):
-            expect(line_of(name, image=wrong), 2, f"reads images, but '{wrong}' is a model; tspace generate")
+            advice = f"MAP must be an image, but '{wrong}' is a model$" \
+                if name == "map-error" else f"reads images, but '{wrong}' is a model; tspace generate"
+            expect(line_of(name, image=wrong), 2, advice)
         for wrong in ("folder", "folder.glb", "folder.png"):
             expect(line_of(name, image=wrong), 4, f"'{wrong}' is a folder")
     others = ["diff a.obj map.png", "bake a.obj --high map.png -o out.png", "finish a.obj --low map.png -o out.glb",
@@ -139,10 +144,20 @@ def test_inputs():
             expect(arguments.split(), 2, "'map.png' is an image")
     others = ["map-error map.png --source a.obj", "bake a.obj --high a.obj --skew a.obj -o out.png",
               "compress-map map.png --roughness a.obj --roughness-output r.png -o out.dds", "check --files-from a.obj",
-              "bake --pairs a.obj -o out/"]
+              "bake --pairs a.obj -o out/", "bake a.obj --high a.obj --match a.obj -o out.png",
+              "finish a.obj --low a.obj --match a.obj -o out.glb", "map-error map.png a.obj --high a.obj --match a.obj"]
     for arguments in others:
         if arguments.split()[0] in COMMANDS:
             expect(arguments.split(), 2, "'a.obj' is a model")
+
+    # A text output never replaces a model or an image.
+    others = [["check", "map.png", "--sarif", "a.obj"], ["check", "map.png", "--sarif", "out.sarif", "--depfile", "a.obj"],
+              ["generate", "none.obj", "-o", "out/", "--manifest", "a.obj"], ["finish", "none.obj", "-o", "out.glb", "--report", "a.obj"],
+              ["bake", "none.obj", "--high", "none.obj", "-o", "out.png", "--report", "a.obj"]]
+    for arguments in others:
+        if arguments[0] in COMMANDS:
+            expect(arguments, 2, f"{arguments[-2]} must be a text file, but 'a.obj' is a model")
+            expect([*arguments[:-1], "map.png"], 2, f"{arguments[-2]} must be a text file, but 'map.png' is an image")
 
 
 def test_encodings():

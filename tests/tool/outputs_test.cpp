@@ -189,7 +189,7 @@ TEST(Outputs, WithDerivedNamesReplaceNoReportAndNoManifest) {
         EXPECT_TRUE(contentsOf(folder) == before) << command;
     }
     EXPECT_EQ(runTool(folder, "generate plain.glb -q -o m.glb --manifest m.bin").exit_code, 0);
-    EXPECT_EQ(runTool(folder, "bake two.obj --high two.obj -q -o n.png --report n.c.png --size 16").exit_code, 0);
+    EXPECT_EQ(runTool(folder, "bake two.obj --high two.obj -q -o n.png --report n.c.json --size 16").exit_code, 0);
 }
 
 TEST(Outputs, RemoveTemporaryFilesOfKilledRunsInAllTheirFolders) {

@@ -158,8 +158,8 @@ Command bakeCommand() {
                 "Process only shard I of N (1-based), to split a batch across machines. The shard of a pair depends "
                 "only on the name of LOW in TABLE, so adding or removing other pairs does not change it.";
     }
-    command.add(kReporting,
-                fileOption("--report", "JSON", arguments.report, "Also write the report as JSON to this file."));
+    command.add(kReporting, fileOption("--report", "JSON", arguments.report,
+                                       "Also write the report as JSON to this file.", InputKind::text));
     addReporting(command, arguments.json, arguments.quiet);
     command.file = &owned->options.file;
     command.run = [owned] { return owned->pairs.empty() ? runBake(*owned) : runPairs(*owned); };

@@ -43,7 +43,8 @@ constexpr Named<Color> kColors[] = {
 void addCheckReporting(Command& command, CheckArguments& arguments) {
     command.add(kReporting, fileOption("--sarif", "FILE", arguments.sarif,
                                        "Write the findings to this file as SARIF 2.1.0, which CI systems show as "
-                                       "annotations; '-': to stdout, instead of the text."));
+                                       "annotations; '-': to stdout, instead of the text.",
+                                       InputKind::text));
     command.add(kReporting, htmlOutput("--html", "FILE", arguments.html,
                                        "Write a self-contained HTML report to this file, with pictures of each finding "
                                        "before and after its fix."));

@@ -141,7 +141,8 @@ void addBatch(Command& command, BatchArguments& batch, bool with_manifest) {
     Option& manifest = command.add(
         group, fileOption("--manifest", "FILE", batch.manifest,
                           "Append one line of JSON to this file for each finished input: hashes of inputs and "
-                          "outputs, options, result and time (schema: docs/reference/json.md)."));
+                          "outputs, options, result and time (schema: docs/reference/json.md).",
+                          InputKind::text));
     manifest.excludes = {"--dry-run"};
     command
         .add(group, flag("--resume", batch.resume,

@@ -100,7 +100,8 @@ void addDepfile(Command& command) {
     Option& depfile = command.add(
         kReporting, fileOption("--depfile", "FILE", *path,
                                "Write a dependency file for make and ninja. It lists the outputs, and every file "
-                               "that was read, such as buffers, images and material libraries."));
+                               "that was read, such as buffers, images and material libraries.",
+                               InputKind::text));
     depfile.excludes = {"--in-place", "--dry-run"};
     command.finish = [path, finish = std::move(command.finish)](const Given& given) {
         std::string wrong = finish ? finish(given) : std::string();

@@ -109,8 +109,8 @@ Command finishCommand() {
                                       "etc.); maps for which glTF has a texture slot are also embedded."));
     output.is_required = true;
     command.add(finishOptions(arguments.options));
-    command.add(kReporting,
-                fileOption("--report", "JSON", arguments.report, "Also write the report as JSON to this file."));
+    command.add(kReporting, fileOption("--report", "JSON", arguments.report,
+                                       "Also write the report as JSON to this file.", InputKind::text));
     addReporting(command, arguments.json, arguments.quiet);
     command.file = &owned->options.file;
     command.run = [owned] { return runFinish(*owned); };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "input_kinds.h"
 
+#include <algorithm>
+
 #include "model/imported/import_document.h"
 #include "model/io/file_io.h"
 #include "model/io/path.h"
@@ -20,12 +22,15 @@ std::string messageFor(const Command& command, const Option& option, const std::
     if (option.reads == InputKind::text)
         return option.name() + " must be a text file" + (isImageName(file) ? is_image : is_model);
     const bool is_operand = option.names.empty();
+    const auto hasOtherKind = [&](const Option& other) { return other.names.empty() && other.reads != option.reads; };
+    if (!is_operand || std::any_of(command.options.begin(), command.options.end(), hasOtherKind)) {
+        return (is_operand ? option.value : option.name()) +
+               (option.reads == InputKind::model ? " must be a model" + is_image : " must be an image" + is_model);
+    }
     if (option.reads == InputKind::model)
-        return is_operand ? command.name + " reads models" + is_image + "; tspace check examines a normal map"
-                          : option.name() + " must be a model" + is_image;
-    return is_operand ? command.name + " reads images" + is_model +
-                            "; tspace generate --flip-green and --convert-maps change the maps of a model"
-                      : option.name() + " must be an image" + is_model;
+        return command.name + " reads models" + is_image + "; tspace check examines a normal map";
+    return command.name + " reads images" + is_model +
+           "; tspace generate --flip-green and --convert-maps change the maps of a model";
 }
 
 }  // namespace

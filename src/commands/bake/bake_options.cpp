@@ -228,6 +228,7 @@ Option matchOption(std::string& target) {
              "Body_high_001 and Body_high_buckle, and an object without a match uses the whole high poly; all: every "
              "object uses the whole high poly; any other value: a text file with lines LOW = HIGH.");
     match.default_text = "names";
+    match.reads = InputKind::text;
     return match;
 }
 

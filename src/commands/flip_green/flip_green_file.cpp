@@ -56,18 +56,31 @@ constexpr Extension kExtensions[] = {{".jpg", ImageFileFormat::jpeg},  {".jpeg",
                                      {".webp", ImageFileFormat::webp}, {".ktx2", ImageFileFormat::ktx2},
                                      {".dds", ImageFileFormat::dds},   {".png", ImageFileFormat::png}};
 
-/// Returns the format that the extension of the output stands for. Throws FileError for unknown extensions. Also throws
-/// for formats other than PNG and `input`, because re-encoding would lose data, unless `input` is sameAsInput.
-ImageFileFormat namedFormat(const std::string& output, ImageFileFormat input) {
+/// Returns the format that an extension stands for, or sameAsInput if it is unknown.
+ImageFileFormat formatOfExtension(std::string_view extension) {
+    const auto found = std::find_if(std::begin(kExtensions), std::end(kExtensions),
+                                    [&](const Extension& known) { return known.name == extension; });
+    return found == std::end(kExtensions) ? ImageFileFormat::sameAsInput : found->format;
+}
+
+/// Fails if the extension of the output stands neither for PNG nor for the format `input`, because re-encoding would
+/// lose data. If `input` is sameAsInput, all known extensions are allowed.
+void requireLosslessEnding(const std::string& output, ImageFileFormat input) {
     const std::string extension = lowerExtension(output);
     std::vector<std::string_view> allowed;
     for (const Extension& candidate : kExtensions) {
         const bool is_lossless = candidate.format == input || candidate.format == ImageFileFormat::png;
         if (input != ImageFileFormat::sameAsInput && !is_lossless) continue;
-        if (candidate.name == extension) return candidate.format;
+        if (candidate.name == extension) return;
         allowed.push_back(candidate.name);
     }
     failEnding(output, allowed);
+}
+
+/// Returns the format of an output that equals the format of the input, according to the name of the input.
+ImageFileFormat formatOfName(const std::string& input) {
+    const std::string extension = lowerExtension(input);
+    return extension == ".tga" ? ImageFileFormat::png : formatOfExtension(extension);
 }
 
 }  // namespace
@@ -81,14 +94,19 @@ Result<FlipGreenReport> flipGreenFile(const std::string& input, const std::strin
     return atFileBorder([&]() -> Result<FlipGreenReport> {
         FlipGreenOptions chosen = options;
         const bool is_named = chosen.format == ImageFileFormat::sameAsInput && !options.sink;
-        if (is_named) chosen.format = namedFormat(output, ImageFileFormat::sameAsInput);
+        if (is_named) {
+            chosen.format = formatOfExtension(lowerExtension(output));
+            // The content of the input decides which formats are lossless. If no format fits, the message lists those
+            // for the name of the input.
+            if (chosen.format == ImageFileFormat::sameAsInput) requireLosslessEnding(output, formatOfName(input));
+        }
         Bytes read;
         if (options.content.data() == nullptr) {
             recordInput(input);
             read = readFile(input);
         }
         const ByteSpan image = options.content.data() != nullptr ? options.content : ByteSpan(read);
-        if (is_named) namedFormat(output, fileFormat(imageFormat(image)));
+        if (is_named) requireLosslessEnding(output, fileFormat(imageFormat(image)));
         FlippedImage flipped = flip(image, chosen);
         AtomicOutput files({.sink = options.sink, .is_dry_run = options.dry_run, .sync = options.sync});
         files.add(output, std::span<const std::uint8_t>(flipped.bytes));

@@ -40,7 +40,7 @@ struct Option {
     std::string group = {};                 ///< heading of the help under which the option is listed
     std::vector<std::string> choices = {};  ///< allowed values; empty: all values that `take` accepts
     bool is_file = false;                   ///< the value is a path; used by completions
-    /// kind of input that the option reads; files whose extension indicates another kind are rejected
+    /// kind of file that the option reads or writes; files with an extension of another kind are rejected
     InputKind reads = InputKind::any;
     bool is_required = false;
     bool is_repeatable = false;
@@ -112,7 +112,7 @@ Option degreesOption(const char* names, double default_value, int most, std::fun
                      HelpText help);
 
 Option text(const char* names, const char* value_name, std::string& target, HelpText help);
-/// Makes an option for the name of a file: an output, or an input of the kind `reads`.
+/// Makes an option for the name of a file, an input or an output. `reads`: its kind.
 Option fileOption(const char* names, const char* value_name, std::string& target, HelpText help,
                   InputKind reads = InputKind::any);
 /// Makes an option for the name of an HTML output: it ends in .html or .htm, or has no extension (a pipe or a device).
