@@ -47,11 +47,11 @@ def on_terminal(arguments, columns=100, stdout=False):
     return text.decode(errors="replace")
 
 
-def write_grid(name, count, height):
-    """Returns a square of count * count quads, bent by a height function."""
+def write_grid(name, count, height, mesh=""):
+    """Writes a square of count * count quads, bent by a height function. `mesh`: name of its object."""
     side = range(count + 1)
     with open(name, "w", encoding="ascii") as file:
-        file.write("mtllib grid.mtl\nusemtl skin\n")
+        file.write("mtllib grid.mtl\n" + (f"o {mesh}\n" if mesh else "") + "usemtl skin\n")
         for y in side:
             for x in side:
                 file.write(f"v {x / count} {height * ((x * y) % 7) / 7} {y / count}\nvt {x / count} {y / count}\n")
@@ -80,11 +80,15 @@ def test_progress():
         "check": (["check", *["large.glb"] * 8], "check|read|compar"),
         "render": (["render", "large.glb", "-o", "turn.png", "--turntable", "12", "--size", "256"], "drawing"),
         "bake": (["bake", "low.obj", "--high", "high.obj", "-o", "map.png", "--size", "2048", "--threads", "1"], "solving|fitting"),
+        "map-error": (["map-error", "flat.png", "low.obj", "--high", "high.obj", "--threads", "1"], "measuring"),
         "diff": (["diff", "large.glb", "large.glb"], "comparing"),
         "identify": (["identify", *["large.glb"] * 8], "reading"),
     }
+    commands = subprocess.run([tool, "--help"], capture_output=True, text=True).stdout
+    if "\n  bake\n" in commands:
+        subprocess.run([tool, "bake", "-q", "low.obj", "--high", "high.obj", "-o", "flat.png", "--size", "2048"], check=True)
     for name, (arguments, stage) in long.items():
-        if name == "bake" and "bake" not in subprocess.run([tool, "--help"], capture_output=True, text=True).stdout:
+        if name in ("bake", "map-error") and f"\n  {name}\n" not in commands:
             continue
         begin = time.monotonic()
         text = on_terminal(arguments)
@@ -92,6 +96,7 @@ def test_progress():
             continue  # the stage was too fast for a status line
         shown = lines_of(text)
         expect(any(re.search(stage, line) for line in shown), f"{name}: no stage '{stage}' in {shown[:40]}")
+        expect(not any(re.fullmatch(r"\d+ s", line) for line in shown), f"{name}: a time without a stage in {shown[:5]}")
         expect(any(re.search(r"\d+ s$", line) for line in shown), f"{name}: no time in {shown[:5]}")
         expect(all(len(line) < 100 for line in shown), f"{name}: a status line is wider than the terminal")
         expect(text.endswith("\r\x1b[K") or "\r\x1b[K" in text.split("\n")[-1] or not shown, f"{name}: the line is left behind")
@@ -123,6 +128,21 @@ def test_width():
                 expect(not wide, f"{' '.join(arguments)} at {columns} ({way}): {wide[:2]}")
                 if arguments[0] != "help":
                     break
+    # At the usual width, examples fit too.
+    for command in re.findall(r"(?m)^  ([a-z-]+)$", on_terminal(["--help"], 80, stdout=True).replace("\r", "")):
+        wide = [line for line in lines_of(on_terminal(["help", command], 80, stdout=True)) if len(line) > 80]
+        expect(not wide, f"help {command} at 80: {wide[:2]}")
+    spaced = "a name of several words, so that it can be broken at its spaces, " * 3
+    write_grid("named.obj", 4, 0, spaced)
+    for arguments in (["inspect", "named.obj"], ["identify", "named.glb"],
+                      ["generate", "--dry-run", "--all", "named.obj", "-o", "o.glb"]):
+        if arguments[-1] == "named.glb":
+            subprocess.run([tool, "generate", "-q", "--all", "named.obj", "-o", "named.glb"], check=True)
+        for columns in (60, 120):
+            out = subprocess.run([tool, *arguments], capture_output=True, text=True,
+                                 env={**os.environ, "COLUMNS": str(columns)}).stdout
+            wide = [line for line in lines_of(out) if len(line) > columns]
+            expect("several words" in out and not wide, f"{' '.join(arguments)} at {columns}: {wide[:2]}")
     environment = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
     out = subprocess.run([tool, "help", "bake"], capture_output=True, text=True, env=environment).stdout
     widths = [len(line) for line in out.splitlines() if not unbreakable(line)]

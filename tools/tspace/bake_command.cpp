@@ -118,9 +118,8 @@ Command bakeCommand() {
             "in the low poly and is optimized for texture filtering; its error is reported in degrees. Models with "
             "several meshes are matched by name (Body_low with Body_high); each material gets its own file.",
         .examples = {"tspace bake low.glb --high high.glb -o normal.png --size 2048",
-                     "tspace bake low.glb --high scan.ply -o normal.png --size 1024 --bits 8 --convention unreal",
-                     "tspace bake low.glb --high high.obj -o normal.png --misses misses.png --heat heat.png --report "
-                     "bake.json",
+                     "tspace bake low.glb --high scan.ply -o normal.png --bits 8 --convention unreal",
+                     "tspace bake low.glb --high high.obj -o normal.png --heat heat.png",
                      "tspace bake --pairs pairs.txt -o maps/ --jobs 4 --manifest done.jsonl --resume"},
         .finish = [&arguments](const Given& given) { return finish(given, arguments); },
     };

@@ -93,7 +93,7 @@ class ProgressLine {
     std::thread thread_ = {};
     bool is_running_ = false, is_shown_ = false;
     std::size_t file_count_ = 0, done_count_ = 0, failed_count_ = 0;
-    std::string file_ = {}, what_ = {};
+    std::string file_ = {}, what_ = "reading";
     std::uint64_t done_ = 0, total_ = 0;
     Clock::time_point start_ = {};
 };

@@ -40,8 +40,8 @@ Command convertMapCommand() {
             "A normal map is correct only for the tangent frames that it was made with. This command rewrites it for "
             "the frames of another model with the same surface and UVs, for object space, or for another program, so "
             "that the shading does not change. Texels outside all triangles are not changed.",
-        .examples = {"tspace convert-map normal.png --mesh baked.glb --to-mesh best.glb -o normal-best.png",
-                     "tspace convert-map normal.png --mesh helmet.glb --to object -o normal-object.png",
+        .examples = {"tspace convert-map normal.png --mesh baked.glb --to-mesh best.glb -o best.png",
+                     "tspace convert-map normal.png --mesh helmet.glb --to object -o object.png",
                      "tspace convert-map normal.png --flip-green --bits 8 -o normal-dx.png"},
         .finish = [&arguments](const Given& given) { return finish(given, arguments.options); },
     };

@@ -96,8 +96,8 @@ Command finishCommand() {
             "--low, the output is that low poly, with all maps baked from IN. Correct data is kept. Retopology and "
             "unwrapping are not included: if UVs are missing, the report names tools that create them.",
         .examples = {"tspace finish scan.ply -o scan.glb --html scan.html",
-                     "tspace finish sculpt.glb --low retopo.glb -o asset.glb --size 2048 --html asset.html",
-                     "tspace finish generated.obj -o generated.glb --normals all --report generated.json"},
+                     "tspace finish sculpt.glb --low retopo.glb -o asset.glb --html asset.html",
+                     "tspace finish generated.obj -o out.glb --normals all --report out.json"},
     };
     const char* group = kInputAndOutput;
     command.add(group, operand("IN", arguments.input, InputKind::model,

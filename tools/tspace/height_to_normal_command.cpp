@@ -36,8 +36,8 @@ Command heightToNormalCommand() {
             "multiplied by --strength. With --mesh, the strength is in model units, and slopes are measured on the "
             "surface of the model.",
         .examples = {"tspace height-to-normal height.png -o normal.png --strength 4",
-                     "tspace height-to-normal height.png -o normal.png --mesh wall.glb --strength 0.02",
-                     "tspace height-to-normal height.png -o normal-dx.png --convention directx --bits 8"},
+                     "tspace height-to-normal height.png -o map.png --mesh wall.glb --strength 0.02",
+                     "tspace height-to-normal height.png -o map.png --convention directx --bits 8"},
     };
     addImageArguments(command, arguments, InputKind::image,
                       "A height map: PNG (8 or 16 bits), JPEG, WebP, EXR, KTX2, DDS or TGA; '-': from stdin. With "

@@ -91,7 +91,7 @@ Command mapErrorCommand() {
             "best. With --source it compares a compressed texture with its original, both sampled with bilinear "
             "filtering. No input is changed.",
         .examples = {"tspace map-error normal.png low.glb --high high.glb",
-                     "tspace map-error normal.png low.fbx --high scan.ply --convention unreal --heat heat.png --json",
+                     "tspace map-error normal.png low.fbx --high scan.ply --heat heat.png --json",
                      "tspace map-error normal.ktx2 --source normal.png"},
     };
     const char* group = kInputAndOutput;

@@ -168,7 +168,8 @@ void appendTable(std::string& out, const std::vector<std::string_view>& rows, st
         std::string line;
         const auto flush = [&] {
             line.erase(line.find_last_not_of(' ') + 1);
-            if (!line.empty()) out += line + "\n";
+            // A line is wider only if one cell is.
+            if (!line.empty()) appendFitted(out, line, width, 2);
         };
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (begins_line[i]) {
