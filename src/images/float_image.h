@@ -31,6 +31,7 @@ std::optional<FloatImage> decodeFloatImage(ByteSpan bytes, std::uint64_t most_pi
 /// nullopt if memory runs out. Requires whyNotRead(ImageFormat::exr) == nullptr.
 std::optional<std::vector<std::uint8_t>> encodeExr(const FloatImage& image, unsigned bits);
 
+inline constexpr unsigned kMaxPngBits = 16;  ///< maximum bits per channel of a PNG
 /// Encodes a PNG with 8 or 16 bits, without color space information: each channel is clamped to 0 to 1 and rounded to
 /// the nearest integer (not finite: 0). Returns nullopt if this build cannot write PNG, or if libspng fails.
 std::optional<std::vector<std::uint8_t>> encodePng(const FloatImage& image, unsigned bits);

@@ -12,6 +12,9 @@ namespace tspace {
 
 namespace {
 
+/// Values down to this limit may come from sharpening filters.
+constexpr float kBelowZero = -1.0F / 64.0F;
+
 /// A float file stores vectors either directly, from -1 to 1, or encoded as (v + 1) / 2. Counts how well texels match
 /// either interpretation: unit length, or at most unit length for two channels. Zero texels are ignored as background.
 class RangeEvidence {
@@ -19,7 +22,6 @@ class RangeEvidence {
     explicit RangeEvidence(bool has_z) : has_z_(has_z) {}
 
     void add(const Vec3& texel) {
-        constexpr float kBelowZero = -1.0F / 64.0F;  // values down to this limit may come from sharpening filters
         is_gray_ = is_gray_ && texel.x == texel.y && texel.y == texel.z;
         if (texel == Vec3{}) return;
         const Vec3 moved{2 * texel.x - 1, 2 * texel.y - 1, 2 * texel.z - 1};
@@ -33,9 +35,10 @@ class RangeEvidence {
     }
 
     /// Returns why the values are vectors in the range -1 to 1, as a clause; empty if they are not.
-    [[nodiscard]] std::string whySigned() const {
+    /// Heights may be below 0 too, so gray texels are vectors only if alpha is a component of them (`is_vector`).
+    [[nodiscard]] std::string whySigned(bool is_vector) const {
         constexpr double kMax = 0.9, kHalf = 0.5, kFew = 0.1, kSome = 0.01;
-        if (count_ == 0 || is_gray_) return {};
+        if (count_ == 0 || (is_gray_ && !is_vector)) return {};
         const double stored = share(stored_fit_), moved = share(moved_fit_), negative = share(negative_);
         const std::string read = "; they were read as vectors from -1 to 1";
         if (negative_ > 0 && stored >= kHalf && stored > moved)
@@ -46,6 +49,7 @@ class RangeEvidence {
             return "floats of " + std::to_string(negative_) + " of " + std::to_string(count_) + " texels are below 0" +
                    read + ", but few are " + lengths() +
                    ", as stored or decoded as 2c - 1; check that the image is a normal map";
+        if (is_vector && moved < kHalf) return "its alpha is below 0 in places, like x or y of a vector" + read;
         return {};
     }
 
@@ -153,21 +157,30 @@ void readFloats(ImageUse use, FloatImage& image) {
     for (float& alpha : image.alpha) {
         if (!std::isfinite(alpha)) alpha = 1;
     }
-    if (use == ImageUse::vectors) image.range_text = evidence.whySigned();
+    // Coverage is never negative, so an alpha below 0 is x or y of vectors.
+    const bool has_signed_alpha =
+        std::any_of(image.alpha.begin(), image.alpha.end(), [](float alpha) { return alpha < kBelowZero; });
+    if (use == ImageUse::vectors) image.range_text = evidence.whySigned(has_signed_alpha);
     if (!image.range_text.empty()) {
         for (Vec3& texel : image.texels) texel = {0.5F * texel.x + 0.5F, 0.5F * texel.y + 0.5F, 0.5F * texel.z + 0.5F};
+        if (has_signed_alpha) {
+            for (float& alpha : image.alpha) alpha = 0.5F * alpha + 0.5F;
+        }
     }
     if (image.not_finite == 0) return;
     HoleFilling(image, std::move(is_broken))
         .run(use == ImageUse::vectors ? Vec3{0.5F, 0.5F, 1} : Vec3{0.5F, 0.5F, 0.5F});
 }
 
+std::uint8_t roundedChannel(float channel) {
+    return static_cast<std::uint8_t>(std::clamp(channel, 0.0F, 1.0F) * 255.0F + 0.5F);
+}
+
 RgbImage roundedImage(const FloatImage& image) {
     RgbImage rounded{image.width, image.height, {}, image.not_finite, image.layer_text};
     rounded.rgb.reserve(3 * image.texels.size());
     for (const Vec3& texel : image.texels) {
-        for (const float channel : {texel.x, texel.y, texel.z})
-            rounded.rgb.push_back(static_cast<std::uint8_t>(std::clamp(channel, 0.0F, 1.0F) * 255.0F + 0.5F));
+        for (const float channel : {texel.x, texel.y, texel.z}) rounded.rgb.push_back(roundedChannel(channel));
     }
     return rounded;
 }

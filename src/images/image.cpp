@@ -3,6 +3,7 @@
 #include "images/image.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 
 #include "core/base/numbers.h"
@@ -95,11 +96,7 @@ bool has(ByteSpan bytes, std::size_t at, std::string_view text) {
 struct Codec {
     const char* name = "";
     const char* mime_type = "";
-#ifdef TSPACE_SMALL
-    const char* why_not = "the image is neither PNG, JPEG, WebP, KTX2 nor DDS";
-#else
-    const char* why_not = "the image is neither PNG, JPEG, WebP, KTX2, DDS nor TGA";
-#endif
+    const char* why_not = nullptr;  ///< a clause; null if the build has a decoder
     ImageClaim (*claim)(ByteSpan) = nullptr;
     std::optional<RgbImage> (*decode)(ByteSpan, std::uint64_t, std::string&, ImageUse) = nullptr;
 };
@@ -129,6 +126,8 @@ Codec exrCodec() {
     return {kName, kMimeType, "the image is EXR, which this build of tspace does not support"};
 #endif
 }
+
+const char* whyUnknown();
 
 Codec codecOf(ImageFormat format) {
 #ifdef TSPACE_HAS_IMAGES
@@ -168,7 +167,26 @@ Codec codecOf(ImageFormat format) {
         case ImageFormat::unknown:
             break;
     }
-    return {};
+    return {"", "", whyUnknown()};
+}
+
+/// Returns why an image of an unknown format is not read: it has none of the formats that this build reads.
+const char* whyUnknown() {
+    static const std::string text = [] {
+        std::vector<std::string> names;
+        for (const ImageFormat format : {ImageFormat::png, ImageFormat::jpeg, ImageFormat::webp, ImageFormat::exr,
+                                         ImageFormat::ktx2, ImageFormat::dds, ImageFormat::tga}) {
+#ifdef TSPACE_SMALL
+            if (format == ImageFormat::tga) continue;
+#endif
+            if (const Codec codec = codecOf(format); codec.decode != nullptr) names.emplace_back(codec.name);
+        }
+        std::string list = "the image is neither ";
+        for (std::size_t i = 0; i < names.size(); ++i)
+            list += (i == 0 ? "" : i + 1 == names.size() ? " nor " : ", ") + names[i];
+        return list;
+    }();
+    return text.c_str();
 }
 
 }  // namespace
@@ -223,6 +241,15 @@ std::optional<RgbImage> decodeImage(ByteSpan bytes, std::uint64_t most_pixels, s
 std::vector<std::uint8_t> decodeAlpha([[maybe_unused]] ByteSpan bytes) {
     const ImageFormat format = imageFormat(bytes);
     if (format == ImageFormat::ktx2 || format == ImageFormat::dds) return decodeTextureAlpha(bytes);
+#ifdef TSPACE_HAS_OPENEXR
+    if (format == ImageFormat::exr && hasOpenExr()) {
+        std::string why;
+        const std::optional<FloatImage> image = decodeExr(bytes, ~std::uint64_t{0}, why, ImageUse::vectors);
+        std::vector<std::uint8_t> alpha;
+        if (image) std::transform(image->alpha.begin(), image->alpha.end(), std::back_inserter(alpha), roundedChannel);
+        return alpha;
+    }
+#endif
 #ifndef TSPACE_SMALL
     if (format == ImageFormat::tga) {
         std::string why;

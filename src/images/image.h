@@ -36,7 +36,7 @@ std::optional<RgbImage> decodeImage(ByteSpan bytes, std::uint64_t most_pixels, s
                                     ImageUse use = ImageUse::vectors);
 
 /// Returns the alpha channel of an image that decodeImage supports, rounded to 8 bits; empty if it has none, or is not
-/// PNG, WebP, KTX2, DDS or TGA. Needs 4 bytes per pixel in addition to the memory of decodeImage.
+/// PNG, WebP, EXR, KTX2, DDS or TGA. Needs 4 bytes per pixel in addition to the memory of decodeImage.
 std::vector<std::uint8_t> decodeAlpha(ByteSpan bytes);
 
 }  // namespace tspace

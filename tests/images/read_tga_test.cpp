@@ -38,7 +38,7 @@ std::string whyNot(ByteSpan file) {
     return decodeImage(file, 1 << 20, why) ? "" : why;
 }
 
-constexpr const char* kUnknown = "the image is neither PNG, JPEG, WebP, KTX2, DDS nor TGA";
+constexpr const char* kUnknown = "the image is neither PNG, JPEG, WebP, EXR, KTX2, DDS nor TGA";
 constexpr const char* kBroken = "the TGA is damaged";
 
 /// Two rows of two texels: red and green; blue and gray.

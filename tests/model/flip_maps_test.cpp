@@ -388,7 +388,7 @@ TEST(FlipMaps, ExplainsWhyAMapIsUnchanged) {
     EXPECT_EQ(report.normal_maps[0].reason, "the map could not be examined (see tspace check)");
     const GenerateReport all = generate(folder.path("in.glb").string(), folder.path("out.glb").string(),
                                         {.maps = {.flip_green = FlipGreen::all}});
-    EXPECT_EQ(all.normal_maps[0].reason, "the image is neither PNG, JPEG, WebP, KTX2, DDS nor TGA");
+    EXPECT_EQ(all.normal_maps[0].reason, "the image is neither PNG, JPEG, WebP, EXR, KTX2, DDS nor TGA");
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST(FlipGreenCommand, ReadsAndWritesPipes) {
     EXPECT_EQ(nlohmann::json::parse(json.err)["output"], "-");
     for (const auto& [arguments, exit_code, says] :
          {std::tuple("flip-green - -o - < /dev/null", 3, "standard input is empty"),
-          {"flip-green - -o - < made.txt", 3, "neither PNG, JPEG, WebP, KTX2, DDS nor TGA"},
+          {"flip-green - -o - < made.txt", 3, "neither PNG, JPEG, WebP, EXR, KTX2, DDS nor TGA"},
           {"flip-green - --in-place < n.png", 2, "standard input"}}) {
         folder.write("made.txt", "text");
         const ToolRun run = runTool(folder, arguments);
