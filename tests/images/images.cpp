@@ -43,6 +43,16 @@ double bumps(double x, double y) {
            0.01 * std::cos(29 * (x - 2 * y));
 }
 
+double bumpsApart(double x, double y) {
+    double h = 0;
+    for (int i = 0; i < 36; ++i) {
+        const double u = x - (i % 6 + 0.5 + 0.3 * std::sin(7.0 * i)) / 6,
+                     v = y - (i / 6 + 0.5 + 0.3 * std::cos(5.0 * i)) / 6;
+        h += 0.02 * std::exp(-(u * u + v * v) * 400);
+    }
+    return h;
+}
+
 std::string pngFile(const RgbImage& image) {
     std::string file;
     const auto width = static_cast<int>(image.width);

@@ -17,6 +17,8 @@ RgbImage normalMapOf(std::uint32_t size, const std::function<double(double, doub
 
 /// Returns the height of bumps with slopes in all directions.
 double bumps(double x, double y);
+/// Returns the height of round bumps. They curve along x and along y, so that only one of the two channels fits as x.
+double bumpsApart(double x, double y);
 
 std::string pngFile(const RgbImage& image);
 std::string jpegFile(const RgbImage& image, int quality);

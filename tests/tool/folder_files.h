@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -24,6 +25,13 @@ inline FloatImage imageIn(const TempFolder& folder, const std::string& name) {
     const std::optional<FloatImage> image = decodeFloatImage(bytesOf(file), 1 << 22, why);
     EXPECT_TRUE(image) << name << ": " << why;
     return image.value_or(FloatImage{});
+}
+
+/// Returns the findings of check on a file.
+inline nlohmann::json findingsIn(const TempFolder& folder, const std::string& file) {
+    const nlohmann::json json = nlohmann::json::parse(runTool(folder, "check --json " + file).out, nullptr, false);
+    const bool is_read = json.is_object() && json["files"][0].contains("findings");
+    return is_read ? json["files"][0]["findings"] : nlohmann::json::array({"not read"});
 }
 
 /// Writes `name` and folded.obj. In `name`, check finds one error, signsInverted, because its tangents have the signs

@@ -54,11 +54,6 @@ void writeSquare(const TempFolder& folder, const std::string& name) {
     ASSERT_EQ(runTool(folder, "generate -q " + name + ".obj -o " + name + ".gltf").exit_code, 0);
 }
 
-Json findingsIn(const TempFolder& folder, const std::string& file) {
-    const Json json = Json::parse(runTool(folder, "check --json " + file).out, nullptr, false);
-    return json.is_object() ? json["files"][0]["findings"] : Json::array({"not read"});
-}
-
 struct Kind {
     const char* code;
     const char* options;  ///< options that the remedy names
@@ -187,17 +182,6 @@ TEST(FixMaps, TexturesBecomePngsWithoutAnExtension) {
         EXPECT_LT(meanError(imageIn(folder, name), imageIn(folder, kind.truth)), 0.01);
         EXPECT_EQ(findingsIn(folder, "mended.gltf"), Json::array()) << run.out;
     }
-}
-
-/// Returns the height of round bumps. They curve along x and along y, so that only one of the two channels fits as x.
-double bumpsApart(double x, double y) {
-    double h = 0;
-    for (int i = 0; i < 36; ++i) {
-        const double u = x - (i % 6 + 0.5 + 0.3 * std::sin(7.0 * i)) / 6,
-                     v = y - (i / 6 + 0.5 + 0.3 * std::cos(5.0 * i)) / 6;
-        h += 0.02 * std::exp(-(u * u + v * v) * 400);
-    }
-    return h;
 }
 
 TEST(FixMaps, FixesExchangedRedAndGreen) {

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "tool/folder_files.h"
 #include "tool/normal_models.h"
 #include "tool/run_tool.h"
 
@@ -175,6 +177,13 @@ TEST(InstancesWithAttributesOfDifferentCounts, AreCountedByTheSmallest) {
     writeSheet(folder, "sheet.gltf", sheet);
     const Json report = Json::parse(runTool(folder, "inspect --json sheet.gltf").out);
     EXPECT_EQ(report["files"][0]["primitives"][0]["instances"], kSheetSize * kSheetSize);
+    EXPECT_NE(report["files"][0]["warnings"].dump().find("49 to 216 elements"), std::string::npos) << report;
+    const Json findings = findingsIn(folder, "sheet.gltf");
+    EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const Json& finding) {
+        return finding["code"] == "fileRemark" &&
+               finding["message"].get<std::string>().find("node 0 has instancing attributes") == 0;
+    })) << findings;
+    EXPECT_NE(runTool(folder, "generate sheet.gltf -o out.gltf").out.find("49 to 216 elements"), std::string::npos);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "model/gltf/load_document.h"
 #include "model/gltf/material_needs.h"
 #include "model/gltf/meshopt_views.h"
+#include "model/gltf/nodes.h"
 #include "model/gltf/packed_frames.h"
 #include "model/gltf/primitive_reader.h"
 #include "model/io/file_error.h"
@@ -197,23 +198,6 @@ struct MeshDraws {
     std::uint64_t instance_count = 0;
 };
 
-/// Returns the number of instances. All instancing attributes of a node have one element per instance; if their numbers
-/// differ, the smallest one is the number of complete instances.
-std::uint64_t instanceCount(const Document& document, const Json& node, const std::string& place) {
-    const Json* instancing = findExtension(node, "EXT_mesh_gpu_instancing");
-    const Json* attributes = instancing == nullptr ? nullptr : findMember(*instancing, "attributes");
-    if (attributes == nullptr || !attributes->is_object() || attributes->empty()) return 1;
-    const std::string attribute_place = place + "/extensions/EXT_mesh_gpu_instancing/attributes";
-    std::optional<std::uint64_t> count;
-    for (const auto& [name, index] : attributes->items()) {
-        const std::size_t accessor =
-            toIndex(index, join(attribute_place, name), rootArray(document, "accessors").size(), "accessor");
-        const std::uint64_t elements = readAccessor(document, accessor).count;
-        count = std::min(count.value_or(elements), elements);
-    }
-    return *count;
-}
-
 std::vector<MeshDraws> meshDraws(const Document& document) {
     std::vector<MeshDraws> draws(rootArray(document, "meshes").size());
     const Json& nodes = rootArray(document, "nodes");
@@ -222,7 +206,7 @@ std::vector<MeshDraws> meshDraws(const Document& document) {
         const auto mesh = readIndex(nodes[i], "mesh", place, draws.size(), "mesh");
         if (!mesh) continue;
         ++draws[*mesh].node_count;
-        draws[*mesh].instance_count += instanceCount(document, nodes[i], place);
+        draws[*mesh].instance_count += countInstances(document, nodes[i], place).complete;
     }
     return draws;
 }

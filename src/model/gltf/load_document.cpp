@@ -14,6 +14,7 @@
 #include "model/gltf/draco_primitives.h"
 #include "model/gltf/member_types.h"
 #include "model/gltf/meshopt_views.h"
+#include "model/gltf/nodes.h"
 #include "model/io/file_error.h"
 #include "model/io/named_files.h"
 #include "model/io/text_encoding.h"
@@ -150,6 +151,27 @@ Buffer loadBuffer(Document& document, const Json& entry, std::size_t index, cons
     return buffer;
 }
 
+/// Warns of nodes whose instancing attributes have different numbers of elements. References to accessors that do not
+/// exist are errors only of commands that use them.
+void checkInstances(Document& document) {
+    constexpr std::size_t kMaxWarnings = 8;
+    const Json& nodes = rootArray(document, "nodes");
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        InstanceCounts instances;
+        tryFile([&] { instances = countInstances(document, nodes[i], join("/nodes", i)); });
+        if (instances.complete == instances.largest || ++count > kMaxWarnings) continue;
+        document.warnings.push_back("node " + std::to_string(i) +
+                                    " has instancing attributes (EXT_mesh_gpu_instancing) of different lengths, " +
+                                    std::to_string(instances.complete) + " to " + std::to_string(instances.largest) +
+                                    " elements; only the first " + std::to_string(instances.complete) +
+                                    " instances are complete and are used");
+    }
+    if (count > kMaxWarnings)
+        document.warnings.push_back(std::to_string(count - kMaxWarnings) +
+                                    " more nodes have instancing attributes of different lengths");
+}
+
 /// Records the files of images as inputs; they are not read here. A rejected URI causes a warning only, because
 /// geometry does not depend on images.
 void checkImageUris(Document& document) {
@@ -242,6 +264,7 @@ Document parseDocument(Bytes file_bytes, const Path& path, const FileOptions& op
     }
     checkImageUris(document);
     checkViewsAndAccessors(document);
+    checkInstances(document);
     decodeMeshoptViews(document);
     decodeDracoPrimitives(document);
     return document;

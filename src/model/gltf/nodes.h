@@ -37,6 +37,27 @@ inline Affine readTransform(const Json& node, const std::string& place) {
     return transformOf(move, turn, scale);
 }
 
+/// Number of instances of a node. All its instancing attributes should have one element per instance.
+struct InstanceCounts {
+    std::size_t complete = 1;  ///< elements of the shortest attribute
+    std::size_t largest = 1;   ///< elements of the longest attribute
+};
+
+inline InstanceCounts countInstances(const Document& document, const Json& node, const std::string& place) {
+    const Json* const extension = findExtension(node, "EXT_mesh_gpu_instancing");
+    const Json* const attributes = extension == nullptr ? nullptr : findMember(*extension, "attributes");
+    if (attributes == nullptr || !attributes->is_object() || attributes->empty()) return {};
+    const std::string at = place + "/extensions/EXT_mesh_gpu_instancing/attributes";
+    InstanceCounts counts{static_cast<std::size_t>(-1), 0};
+    for (const auto& [name, index] : attributes->items()) {
+        const std::size_t accessor =
+            toIndex(index, join(at, name), rootArray(document, "accessors").size(), "accessor");
+        const std::size_t count = readAccessor(document, accessor).count;
+        counts = {std::min(counts.complete, count), std::max(counts.largest, count)};
+    }
+    return counts;
+}
+
 /// Reads EXT_mesh_gpu_instancing: the transforms of a node's instances relative to the node, or a single identity
 /// without it. Ignores attributes of a wrong type or without data.
 inline std::vector<Affine> readInstances(const Document& document, const Json& node, const std::string& place) {
