@@ -379,6 +379,23 @@ TEST(OverwriteNormals, InvertedSignsAreKeptBecauseTheMapMayMatchThem) {
     }
 }
 
+TEST(OverwriteNormals, SignsAreThoseOfTheUvsWhereOnlyTheWindingWasWrong) {
+    for (const float factor : {1.0f, -1.0f}) {
+        ModelData data = withTangents(arch(4, 0.8f), Method::mikktspace);
+        const float sign = data.tangents[0].w;
+        for (Vec4& tangent : data.tangents) tangent.w *= factor;
+        for (std::size_t c = 0; c < data.indices.size(); c += 3) std::swap(data.indices[c], data.indices[c + 1]);
+        GltfBuilder builder;
+        const std::size_t tangents = builder.addFloats(floatsOf(data.tangents), 4);
+        addPart(builder, data, true)["attributes"]["TANGENT"] = tangents;
+        const Made made = make(builder, anew());
+        // The new normals point to the other side, for which the sign is the opposite.
+        for (const Vec4& tangent : readTangents(made.document, made.primitives[0]))
+            EXPECT_EQ(tangent.w, -factor * sign);
+        EXPECT_EQ(made.report.primitives[0].notes.size(), factor < 0 ? 1u : 0u);
+    }
+}
+
 TEST(OverwriteNormals, TargetsGetNewOffsets) {
     const ModelData data = arch(4, 0.2f);
     GltfBuilder builder;

@@ -253,7 +253,8 @@ std::vector<bool> findVerticesWithSign(const PoolView& vertices, std::span<const
 /// down. Tangents more than 45 degrees from the new ones follow other UVs, for example those before a mirroring
 /// KHR_texture_transform, and are not counted as inverted. `have_signs`: for each new vertex, whether UVs determine its
 /// sign; others do not count.
-bool haveInvertedSigns(std::span<const Vec4> old, const PoolFrames& frames, const std::vector<bool>& have_signs) {
+bool haveInvertedSigns(std::span<const Vec4> old, std::span<const Vec3> old_normals, const PoolFrames& frames,
+                       const std::vector<bool>& have_signs) {
     if (old.empty()) return false;
     constexpr float kCos45 = 0.70710678f;
     std::size_t inverted = 0, count = 0;
@@ -262,7 +263,10 @@ bool haveInvertedSigns(std::span<const Vec4> old, const PoolFrames& frames, cons
         ++count;
         const Vec4 &now = frames.tangents[v], &before = old[frames.source_vertices[v]];
         const bool has_its_direction = dot(xyz(now), xyz(before)) > kCos45 * length(xyz(before));
-        inverted += has_its_direction && now.w * before.w < 0 ? 1U : 0U;
+        // Where the winding is wrong, the new normal points to the other side, for which w has the opposite sign.
+        const bool is_other_side =
+            !old_normals.empty() && dot(frames.normals[v], old_normals[frames.source_vertices[v]]) < 0;
+        inverted += has_its_direction && (now.w * before.w < 0) != is_other_side ? 1U : 0U;
     }
     return count != 0 && 3 * inverted >= 2 * count;
 }
@@ -342,6 +346,10 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
             decoded.old_tangents = arrays_.borrowTangents(first);
     }
     vertices.old_tangents = decoded.old_tangents.span();
+    SharedArray<Vec3> old_normals;
+    if (keeps_signs && !decoded.old_tangents.empty() && first.find("NORMAL") &&
+        readAccessor(document_, *first.find("NORMAL")).component_count == 3)
+        old_normals = arrays_.borrowVec3(first, "NORMAL");
     vertices.is_from_blender = pool.is_from_blender;
     vertices.makes_tangents = pool.makes_tangents;
     std::vector<PrimitiveGeometry> geometries = readGeometries(arrays_, primitives_, pool);
@@ -378,7 +386,7 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     if (was_welded) {
         for (std::uint32_t& source : frames.source_vertices) source = welded.kept[source];
     }
-    if (keeps_signs && haveInvertedSigns(vertices.old_tangents, frames, have_signs)) {
+    if (keeps_signs && haveInvertedSigns(vertices.old_tangents, old_normals.span(), frames, have_signs)) {
         for (Vec4& tangent : frames.tangents) tangent.w = -tangent.w;
         for (const std::size_t number : pool.primitives) {
             reports[number].notes.emplace_back(
