@@ -182,6 +182,26 @@ TEST(HeightToNormalCommand, GenerateConvertsMapBumpOfObj) {
     EXPECT_NE(folder.read("own.glb").find(R"("uri":"height.png")"), std::string::npos);
 }
 
+TEST(HeightToNormalCommand, EachCommandWarnsOfHeightsThatAreNotFinite) {
+    if (whyNotRead(ImageFormat::exr) != nullptr) GTEST_SKIP() << "without OpenEXR";
+    const TempFolder folder;
+    std::vector<float> heights(std::size_t{kSize} * kSize, 0.5F);
+    for (std::size_t i = 0; i < heights.size(); ++i)
+        heights[i] = static_cast<float>(hill((i % kSize + .5) / kSize, 1 - (i / kSize + .5) / kSize));
+    heights[5] = heights[6] = std::numeric_limits<float>::quiet_NaN();
+    folder.write("height.exr", exrFile(kSize, kSize, {{"Y", heights}}));
+    writeWall(folder);
+    folder.write("wall.mtl", "newmtl a\nmap_bump -bm 0.1 height.exr\n");
+    for (const char* command : {"generate wall.obj -o wall.glb", "render wall.obj -o wall.png --show mapped --size 64",
+                                "height-to-normal height.exr -o n.png --strength 6", "check wall.obj"}) {
+        const ToolRun run = runTool(folder, command);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_NE(run.out.find("2 texels of the image are NaN or infinite"), std::string::npos) << command << "\n"
+                                                                                                << run.out;
+    }
+    EXPECT_LT(errorOf(normalMapIn(folder, "wall.glb"), 0.05), 0.6);
+}
+
 /// Heights with a slight tint are still heights. A colored picture is neither a height map nor a normal map.
 TEST(HeightToNormalCommand, TreatsMapBumpAsHeightsOnlyIfItIsGray) {
     const TempFolder folder;

@@ -232,8 +232,10 @@ void analyzeContent(const Scene& scene, const TexelMask& inside, NormalMap& map,
     }
     map.analysis = analyzeMap({image, alpha, inside, facts ? &facts->layout : nullptr}, surface,
                               placedInWorld(map, parts, surface));
-    if (holdsNormals(map.analysis.content) && !(map.analysis.layout == MapLayout{}))
-        readByLayout(image, alpha, map.analysis.layout);
+    const MapContent content = map.analysis.content;
+    map.analysis.is_marked_srgb = facts && facts->is_srgb && map.analysis.layout.curve == MapCurve::none &&
+                                  content != MapContent::picture && content != MapContent::height;
+    if (holdsNormals(content) && !(map.analysis.layout == MapLayout{})) readByLayout(image, alpha, map.analysis.layout);
 }
 
 bool isEtc1s(const std::optional<TextureFacts>& facts) { return facts && facts->name.starts_with("ETC1S"); }
@@ -376,17 +378,18 @@ bool readsLevels(const NormalMap& map) {
     return std::any_of(map.parts.begin(), map.parts.end(), [](const MapPart& part) { return part.use->reads_levels; });
 }
 
-/// Reports texels that are not finite, and layers that were not read.
-void describeReading(const Scene& scene, const NormalMap& map, const std::string& name,
+/// Reports texels that are not finite, and layers that were not read. `conversion`: the remedy that converts the image.
+void describeReading(const Scene& scene, const NormalMap& map, const std::string& name, Remedy conversion,
                      std::vector<Finding>& findings) {
     if (map.not_finite > 0) {
         const Tally texels{.count = map.not_finite, .total = claimedSize(scene.images[map.image].bytes).pixels()};
         findings.push_back(makeFinding(FindingCode::fileRemark, Severity::warning, texels, "texels",
                                        "the normal map " + name + ": " + notFiniteText(map.not_finite)));
-        setRemedy(findings.back(),
-                  {"Find the program that wrote NaN or infinity, and export the map again; or keep the filled texels: "
-                   "{}",
-                   {convertCommand(namedImage(scene, map))}});
+        conversion.text =
+            "Find the program that wrote NaN or infinity, and export the map again; or keep the filled "
+            "texels. " +
+            conversion.text;
+        setRemedy(findings.back(), std::move(conversion));
     }
     if (map.layer_text.empty()) return;
     const Tally one{.count = 1, .total = 1};
@@ -397,8 +400,9 @@ void describeReading(const Scene& scene, const NormalMap& map, const std::string
                                       {}});
 }
 
-/// Reports how the file stores the map: lossy compression, declared sRGB, and missing mip levels.
-void describeStorage(const Scene& scene, const NormalMap& map, const std::string& name,
+/// Reports how the file stores the map: lossy compression, declared sRGB, and missing mip levels. `conversion`: the
+/// remedy that converts the map.
+void describeStorage(const Scene& scene, const NormalMap& map, const std::string& name, const Remedy& conversion,
                      std::vector<Finding>& findings) {
     const SceneImage& image = scene.images[map.image];
     const std::optional<TextureFacts> facts = textureFacts(image.bytes);
@@ -422,20 +426,13 @@ void describeStorage(const Scene& scene, const NormalMap& map, const std::string
         add(FindingCode::normalMapLossy, Severity::note, std::move(text));
     }
     if (!facts) return;
-    const bool is_map = content != MapContent::picture && content != MapContent::height;
-    if (facts->is_srgb && is_map && content != MapContent::encoded) {
+    if (map.analysis.is_marked_srgb) {
         Finding& finding = add(FindingCode::normalMapIsSrgb, Severity::warning,
                                " (" + facts->name +
                                    ") is declared as sRGB, but its values are linear: renderers that follow the "
                                    "declaration, such as three.js, tilt all its normals");
-        const NamedImage named = namedImage(scene, map);
-        setRemedy(
-            finding,
-            named.is_alone
-                ? Remedy{"Convert it: {}", {convertCommand(named)}}
-                : Remedy{
-                      "Compress the texture again as linear, or convert it to PNG: {}. To convert the image alone: {}",
-                      {toCommand("generate --fix-maps"), convertCommand(named)}});
+        setRemedy(finding,
+                  {"Compress the texture again as linear, or use a PNG. " + conversion.text, conversion.commands});
     }
     if (facts->has_blocks && facts->level_count == 1 && claimedSize(image.bytes).pixels() > 1 && readsLevels(map))
         add(FindingCode::normalMapLevels, Severity::note,
@@ -461,8 +458,9 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
     } else {
         const bool has_own_green = hasOwnGreen(map.analysis.layout);
         const std::optional<TextureFacts> facts = textureFacts(scene.images[map.image].bytes);
-        std::optional<Finding> content =
-            contentFinding(namedImage(scene, map), map.analysis, isDown(map) && !(has_own_green && isDeclared(map)));
+        const NamedImage named = namedImage(scene, map);
+        const bool green_is_down = isDown(map) && !(has_own_green && isDeclared(map));
+        std::optional<Finding> content = contentFinding(named, map.analysis, green_is_down);
         if (content && facts) content->message += " (format: " + facts->name + ")";
         if (content && map.analysis.content == MapContent::height && mayBeHeights(map)) {
             content->severity = Severity::note;
@@ -474,12 +472,13 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         if (content) findings.push_back(*std::move(content));
         if (has_own_green && isDown(map) && !isDeclared(map)) {
             findings.push_back(flipped(name, *map.test));
-            const NamedImage named = namedImage(scene, map);
-            if (named.is_alone) setRemedy(findings.back(), loneGreenRemedy(named, map.analysis));
+            setRemedy(findings.back(), greenRemedy(named, map.analysis));
         }
         if (map.test->verdict == GreenVerdict::mixed) findings.push_back(mixed(name, *map.test));
-        describeReading(scene, map, name, findings);
-        describeStorage(scene, map, name, findings);
+        NamedImage alone = named;
+        alone.is_alone = true;
+        describeReading(scene, map, name, conversionRemedy(alone, map.analysis, green_is_down), findings);
+        describeStorage(scene, map, name, conversionRemedy(named, map.analysis, green_is_down), findings);
         for (Finding& finding : findings) {
             if (finding.unit == "blocks") finding.confidence = map.test->confidence();
         }

@@ -444,19 +444,18 @@ MapAnalysis analyzeTexels(std::span<const TexelBytes> texels, bool has_alpha, st
     return MapAnalyzer(texels, has_alpha, surface, in_world).analysis();
 }
 
+double unitShare(std::span<const TexelBytes> texels) { return texels.empty() ? 0 : fitOf(texels, {}).unit_share; }
+
 bool isBlueConstant(std::span<const TexelBytes> texels) { return !texels.empty() && isConstant(texels, 2); }
 
 void readByLayout(RgbImage& image, std::span<const std::uint8_t> alpha, const MapLayout& layout) {
     const LayoutReader reader(layout);
-    const auto byteOf = [](double value) {
-        return static_cast<std::uint8_t>(std::clamp(127.5 * (value + 1) + 0.5, 0.0, 255.0));
-    };
     for (std::size_t pixel = 0; 3 * pixel < image.rgb.size(); ++pixel) {
         std::uint8_t* rgb = image.rgb.data() + 3 * pixel;
         const DVec3 v = reader.vector({rgb[0], rgb[1], rgb[2], alpha.empty() ? std::uint8_t{255} : alpha[pixel]});
-        rgb[0] = byteOf(v.x);
-        rgb[1] = byteOf(v.y);
-        rgb[2] = byteOf(v.z);
+        rgb[0] = storedValue(v.x);
+        rgb[1] = storedValue(v.y);
+        rgb[2] = storedValue(v.z);
     }
 }
 

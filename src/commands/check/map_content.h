@@ -51,6 +51,8 @@ struct MapAnalysis {
     /// For two channels: the slopes fit a height field with x and y in either order.
     bool is_order_open = false;
     bool is_declared = false;  ///< the texture file declares the layout
+    /// The texture file declares sRGB, but its values are linear.
+    bool is_marked_srgb = false;
 };
 
 /// Returns at most about 2^18 of the texels in `inside`, spread evenly. `alpha`: one per pixel, or empty.
@@ -62,6 +64,9 @@ std::vector<TexelBytes> sampleTexels(const RgbImage& image, std::span<const std:
 /// may be empty. `in_world`: the same points with the normals in world space; empty if no node rotates them.
 MapAnalysis analyzeTexels(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
                           std::span<const TexelOnSurface> in_world = {});
+
+/// Returns the share of texels that are unit vectors with x, y and z in red, green and blue.
+double unitShare(std::span<const TexelBytes> texels);
 
 /// Returns whether blue contains no information.
 bool isBlueConstant(std::span<const TexelBytes> texels);

@@ -131,6 +131,15 @@ std::string messageOf(const NamedImage& image, const MapAnalysis& analysis) {
     return name + " is gray, not a normal map; it may be a height map";
 }
 
+RemedyCommand imageCommand(const char* verb, const NamedImage& image) {
+    RemedyCommand command{.verb = verb, .inputs = {image.file}, .options = {{"o", "OUT.png"}}};
+    if (image.file == kUnnamed) command.placeholders.push_back(image.file);
+    command.placeholders.emplace_back("OUT.png");
+    return command;
+}
+
+RemedyCommand convertCommand(const NamedImage& image) { return imageCommand("convert-map", image); }
+
 RemedyCommand withLayout(RemedyCommand command, const MapLayout& layout) {
     const MapLayout plain{.curve = layout.curve};
     if (!(layout == plain)) {
@@ -236,23 +245,26 @@ Remedy remedyOf(const NamedImage& image, const MapAnalysis& analysis, bool green
 
 }  // namespace
 
-RemedyCommand imageCommand(const char* verb, const NamedImage& image) {
-    RemedyCommand command{.verb = verb, .inputs = {image.file}, .options = {{"o", "OUT.png"}}};
-    if (image.file == kUnnamed) command.placeholders.push_back(image.file);
-    command.placeholders.emplace_back("OUT.png");
-    return command;
+Remedy conversionRemedy(const NamedImage& image, const MapAnalysis& analysis, bool green_is_down) {
+    const bool is_only_green = analysis.content == MapContent::normals && green_is_down && image.is_alone;
+    return is_only_green ? greenRemedy(image, analysis) : remedyOf(image, analysis, green_is_down);
 }
 
-RemedyCommand convertCommand(const NamedImage& image) { return imageCommand("convert-map", image); }
-
-Remedy loneGreenRemedy(const NamedImage& image, const MapAnalysis& analysis) {
-    const RemedyCommand convert = withLayout(convertCommand(image), analysis.layout);
-    const bool is_normals = analysis.content == MapContent::normals;
-    return {
-        "If the map was made for DirectX and is read as glTF or OpenGL, invert green: {}. If bumps look like dents "
-        "afterwards, red was inverted: {}. The map alone does not show which of the two cases it is.",
-        {is_normals ? imageCommand("flip-green", image) : withOption(convert, "flip-green"),
-         withOption(convert, "flip-red")}};
+Remedy greenRemedy(const NamedImage& image, const MapAnalysis& analysis) {
+    const bool is_converted = analysis.content != MapContent::normals || analysis.is_marked_srgb;
+    if (image.is_alone) {
+        const RemedyCommand convert = withLayout(convertCommand(image), analysis.layout);
+        return {
+            "If the map was made for DirectX and is read as glTF or OpenGL, invert green: {}. If bumps look like dents "
+            "afterwards, red was inverted: {}. The map alone does not show which of the two cases it is.",
+            {is_converted ? withOption(convert, "flip-green") : imageCommand("flip-green", image),
+             withOption(convert, "flip-red")}};
+    }
+    Remedy remedy = usualRemedy(FindingCode::greenFlipped);
+    if (!is_converted) return remedy;
+    remedy.commands[0] = withOption(remedy.commands[0], "fix-maps");
+    remedy.commands[1] = withLayout(remedy.commands[1], analysis.layout);
+    return remedy;
 }
 
 std::optional<Finding> contentFinding(const NamedImage& image, const MapAnalysis& analysis, bool green_is_down) {
@@ -263,6 +275,11 @@ std::optional<Finding> contentFinding(const NamedImage& image, const MapAnalysis
         message += ", and one of them is inverted, as in an image that was rotated without its vectors";
     else if (green_is_down)
         message += "; y is inverted as well";
+    if (analysis.layout.curve != MapCurve::none && analysis.content != MapContent::encoded)
+        message += std::string(
+                       "; the map was also stored as a color image: its vectors result only after the sRGB "
+                       "curve is ") +
+                   (analysis.layout.curve == MapCurve::srgb ? "removed" : "applied");
     Finding finding = makeFinding(codeOf(analysis.content), Severity::warning, texels, "texels", std::move(message));
     setRemedy(finding, remedyOf(image, analysis, green_is_down));
     finding.confidence = texels.share();

@@ -9,6 +9,7 @@
 
 #include "commands/check/map_alpha.h"
 #include "commands/check/normal_map.h"
+#include "commands/check/texel_statistics.h"
 #include "images/layout_guess.h"
 
 namespace tspace {
@@ -75,16 +76,13 @@ bool areXAndYExchanged(const DecodedMap& map) {
 /// the channels contain x + y and x - y (hemi-octahedral encoding).
 RgbImage decodeOctahedral(const DecodedMap& map, const MapLayout& layout, bool is_hemi) {
     RgbImage read = readAs(map, layout);
-    const auto byteOf = [](double value) {
-        return static_cast<std::uint8_t>(std::clamp(127.5 * (value + 1) + 0.5, 0.0, 255.0));
-    };
     for (std::size_t i = 0; i + 2 < read.rgb.size(); i += 3) {
         const double first = read.rgb[i] / 127.5 - 1, second = read.rgb[i + 1] / 127.5 - 1;
         const double x = is_hemi ? (first + second) / 2 : first, y = is_hemi ? (first - second) / 2 : second;
         const double z = std::max(0.0, 1 - std::fabs(x) - std::fabs(y)), length = std::sqrt(x * x + y * y + z * z);
-        read.rgb[i] = byteOf(x / length);
-        read.rgb[i + 1] = byteOf(y / length);
-        read.rgb[i + 2] = byteOf(z / length);
+        read.rgb[i] = storedValue(x / length);
+        read.rgb[i + 1] = storedValue(y / length);
+        read.rgb[i + 2] = storedValue(z / length);
     }
     return read;
 }
@@ -143,9 +141,10 @@ std::optional<MapAnalysis> guessedLayout(const DecodedMap& map, std::span<const 
     return analysis;
 }
 
-/// Detects the content by the declared layout, alpha, the texels, and the slopes.
-MapAnalysis contentOf(const DecodedMap& map, std::span<const TexelBytes> texels,
-                      std::span<const TexelOnSurface> surface, std::span<const TexelOnSurface> in_world) {
+/// Detects the content of a map without a transfer curve by the declared layout, alpha, the texels, and the slopes.
+/// Content `encoded` means that only the curve is known so far.
+MapAnalysis linearContentOf(const DecodedMap& map, std::span<const TexelBytes> texels,
+                            std::span<const TexelOnSurface> surface, std::span<const TexelOnSurface> in_world) {
     if (map.declared != nullptr && !(*map.declared == MapLayout{})) {
         MapAnalysis analysis = knownLayout(*map.declared, texels);
         analysis.is_declared = true;
@@ -161,6 +160,65 @@ MapAnalysis contentOf(const DecodedMap& map, std::span<const TexelBytes> texels,
     if (map.declared != nullptr ? !map.alpha.empty() : analysis.content == MapContent::xInAlpha)
         return guessedLayout(map, texels).value_or(analysis);
     return analysis;
+}
+
+/// Returns whether a map with this content may have a transfer curve in addition, or instead.
+bool mayHaveCurve(const MapAnalysis& analysis, const DecodedMap& map, std::span<const TexelBytes> texels) {
+    constexpr double kFewUnit = 0.5;
+    switch (analysis.content) {
+        case MapContent::encoded:
+        case MapContent::picture:
+        case MapContent::twoChannels:
+            return true;
+        case MapContent::normals:
+            return unitShare(texels) < kFewUnit;
+        case MapContent::objectSpace:
+            return !analysis.follows_mesh;
+        case MapContent::height:
+            return !map.alpha.empty();  // x or y in gray, beside alpha
+        default:
+            return false;
+    }
+}
+
+/// Returns whether the content of a map after a curve was undone shows that the map had the curve: without relief, x
+/// and y are 0, and the slopes fit a height field.
+bool showsCurve(const DecodedMap& map, const MapAnalysis& analysis, std::span<const TexelBytes> texels) {
+    constexpr double kNearZero = 0.15, kAnyLength = 1;
+    if (analysis.content == MapContent::objectSpace) return analysis.follows_mesh;
+    const auto at = [](const MapComponent& component) { return static_cast<std::size_t>(component.channel); };
+    return analysis.content != MapContent::normals && holdsNormals(analysis.content) &&
+           canBeXy(texels, at(analysis.layout.x), at(analysis.layout.y), kNearZero, kAnyLength) &&
+           fitsWell(slopesOf(map, analysis.layout));
+}
+
+/// Detects the content of a map that may have a transfer curve.
+MapAnalysis contentOf(const DecodedMap& map, std::span<const TexelBytes> texels,
+                      std::span<const TexelOnSurface> surface, std::span<const TexelOnSurface> in_world) {
+    const MapAnalysis plain = linearContentOf(map, texels, surface, in_world);
+    if (!mayHaveCurve(plain, map, texels)) return plain;
+    const bool is_encoded = plain.content == MapContent::encoded;
+    for (const MapCurve curve : {MapCurve::srgb, MapCurve::linearized}) {
+        if (is_encoded && plain.layout.curve != curve) continue;
+        const RgbImage image = readAs(map, {.curve = curve});
+        const DecodedMap decoded{image, map.alpha, map.inside, map.declared};
+        const LayoutReader reader({.curve = curve});
+        const auto decode = [&reader](std::span<const TexelOnSurface> points) {
+            std::vector<TexelOnSurface> read(points.begin(), points.end());
+            for (TexelOnSurface& point : read) {
+                const DVec3 v = reader.vector(point.texel);
+                point.texel = {storedValue(v.x), storedValue(v.y), storedValue(v.z), point.texel[3]};
+            }
+            return read;
+        };
+        const std::vector<TexelBytes> read = sampleTexels(image, map.alpha, map.inside);
+        MapAnalysis analysis = linearContentOf(decoded, read, decode(surface), decode(in_world));
+        const bool is_known = is_encoded && analysis.content != MapContent::normals && holdsNormals(analysis.content);
+        if (!is_known && !showsCurve(decoded, analysis, read)) continue;
+        analysis.layout.curve = curve;
+        return analysis;
+    }
+    return plain;
 }
 
 }  // namespace

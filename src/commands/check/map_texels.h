@@ -31,6 +31,11 @@ inline constexpr double kByteStep = 1.0 / 127.5;
 
 inline double signedValue(std::uint8_t channel) { return static_cast<double>(channel) * kByteStep - 1; }
 
+/// Returns the channel that stores a value of -1 to 1.
+inline std::uint8_t storedValue(double value) {
+    return static_cast<std::uint8_t>(std::clamp(127.5 * (value + 1) + 0.5, 0.0, 255.0));
+}
+
 /// Decodes texels by a layout. Each of the 256 values of a channel is decoded once.
 class LayoutReader {
   public:

@@ -79,16 +79,14 @@ struct NamedImage {
     bool is_alone = false;  ///< no model uses the image, so generate does not apply
 };
 
-/// Returns the command `verb` for the image, with the output OUT.png.
-RemedyCommand imageCommand(const char* verb, const NamedImage& image);
-RemedyCommand convertCommand(const NamedImage& image);
+/// Returns the remedy that converts an image to what glTF requires. Each of its commands fixes all faults of the map.
+/// `green_is_down`: the channel that contains y is also inverted.
+Remedy conversionRemedy(const NamedImage& image, const MapAnalysis& analysis, bool green_is_down);
 
-/// Returns the remedy of greenFlipped for an image without a model, to which generate does not apply. Its commands also
-/// convert the channels.
-Remedy loneGreenRemedy(const NamedImage& image, const MapAnalysis& analysis);
+/// Returns the remedy of greenFlipped. Its commands also convert the channels.
+Remedy greenRemedy(const NamedImage& image, const MapAnalysis& analysis);
 
-/// Returns the finding on the content of a map, or nothing for normals. `green_is_down`: the channel that contains y is
-/// also inverted.
+/// Returns the finding on the content of a map, or nothing for normals. `green_is_down`: see conversionRemedy.
 std::optional<Finding> contentFinding(const NamedImage& image, const MapAnalysis& analysis, bool green_is_down);
 
 // Packed frames of a scene.

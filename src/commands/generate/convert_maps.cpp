@@ -176,7 +176,8 @@ class OneMap {
     /// Returns the groups that need a new map, each with its map. If there is none, `why` is the reason
     /// (a clause).
     std::vector<std::pair<MapGroup, NewMap>> convert(std::string& why) {
-        const std::optional<FloatImage> image = decode(why);
+        std::string how_read;
+        const std::optional<FloatImage> image = decode(why, how_read);
         if (!image) return {};
         for (std::size_t i = 0; i < shown_.size(); ++i) prepare(shown_[i], sources_[i], *image);
         std::vector<std::pair<MapGroup, NewMap>> made;
@@ -185,6 +186,7 @@ class OneMap {
                 std::any_of(group.begin(), group.end(), [](const ShownMap* one) { return one->is_new; });
             if (!is_needed) continue;
             NewMap map = convertFor(group, *image, options_);
+            if (!how_read.empty()) map.report.notes.push_back("Reading the old map: " + how_read + ".");
             made.emplace_back(std::move(group), std::move(map));
         }
         return made;
@@ -199,7 +201,7 @@ class OneMap {
         const ScenePrimitive* after;
     };
 
-    [[nodiscard]] std::optional<FloatImage> decode(std::string& why) const {
+    [[nodiscard]] std::optional<FloatImage> decode(std::string& why, std::string& how_read) const {
         why = "it cannot be read";
         if (file_.empty()) return {};
         if (const char* why_not = whyNotRead(imageFormat(file_))) {
@@ -213,9 +215,8 @@ class OneMap {
         }
         std::optional<FloatImage> image = decodeFloatImage(file_, kMaxModelMapPixels, why);
         if (!image) return {};
-        readTextureVectors(*image);
-        constexpr unsigned kMaxBits = 16;  // maximum number of bits per channel of a PNG
-        image->bits = std::min(image->bits, kMaxBits);
+        how_read = readTextureVectors(*image);
+        image->bits = std::min(image->bits, kMaxPngBits);
         return image;
     }
 

@@ -60,6 +60,7 @@ struct ConvertedHeights {
     Bytes file = {};           ///< PNG; empty: not converted
     std::string why_not = {};  ///< reason why it was not converted, as a clause
     double mean_lean_deg = 0;  ///< same meaning as HeightToNormalReport::mean_lean_deg
+    std::string remarks = {};  ///< see takeRemarks
 };
 
 /// Converts height map `image` to a normal map for all primitives of the material; white is `strength` units high.

@@ -45,6 +45,8 @@ void convertHeightMap(const Scene& scene, std::size_t image, const GenerateOptio
     const auto strength = static_cast<double>(material.normal_scale);
     ConvertedHeights made = normalMapFromHeights(scene, number, image, strength, options);
     if (!made.is_height_map) return;
+    if (!made.remarks.empty())
+        model.warnings.push_back("the height map '" + material.normal_texture.file + "': " + made.remarks);
     if (made.file.empty()) return skipHeightMap(material, made.why_not, model);
     model.memory->take(made.file.size(), "material");
     material.converted_normal_map = std::make_shared<const Bytes>(std::move(made.file));

@@ -39,11 +39,11 @@ std::string formerContent(const MapAnalysis& analysis) {
     return "";
 }
 
-/// Returns why an image with such contents is not rewritten; empty if it is. `claims_srgb`: the file declares sRGB
-/// encoding.
-std::string whyUnchanged(const JudgedMap& map, bool claims_srgb) {
+/// Returns why an image with such contents is not rewritten; empty if it is.
+std::string whyUnchanged(const JudgedMap& map) {
     const MapAnalysis& analysis = map.analysis;
-    if (analysis.content == MapContent::normals && !claims_srgb) return "the map is encoded as glTF requires";
+    if (analysis.content == MapContent::normals && !analysis.is_marked_srgb)
+        return "the map is encoded as glTF requires";
     if (analysis.content == MapContent::height)
         return "the image is gray, so it is a height map of unknown strength; use tspace height-to-normal";
     if (analysis.content == MapContent::picture) return "the image is a color image, not a normal map";
@@ -108,8 +108,7 @@ void toTangentSpace(const Scene& scene, std::size_t image_number, const Generate
 }  // namespace
 
 Bytes rewriteMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& options, JudgedMap& map) {
-    const std::optional<TextureFacts> facts = textureFacts(bytes);
-    map.report.reason = whyUnchanged(map, facts && facts->is_srgb);
+    map.report.reason = whyUnchanged(map);
     if (!map.report.reason.empty()) return {};
     if (!scene.memory->has(kMapPixelBytes * claimedSize(bytes).pixels())) {
         map.report.reason = "converting the map would exceed the memory limit";
@@ -121,14 +120,15 @@ Bytes rewriteMap(const Scene& scene, ByteSpan bytes, const GenerateOptions& opti
     layout.y.is_inverted = layout.y.is_inverted != map.is_y_inverted;
     readTexels(layout, *image);
     if (map.analysis.content == MapContent::objectSpace) toTangentSpace(scene, map.image, options, *image);
-    constexpr unsigned kMaxBits = 16;  // maximum bits of a PNG
-    const auto file = encodePng(*image, std::min(image->bits, kMaxBits));
+    const auto file = encodePng(*image, std::min(image->bits, kMaxPngBits));
     if (!file) {
         map.report.reason = "the new map could not be encoded as PNG";
         return {};
     }
     map.report.mended = true;
     map.report.reason = formerContent(map.analysis);
+    if (layout.curve != MapCurve::none && map.analysis.content != MapContent::encoded)
+        map.report.reason += ", and was stored as a color image (sRGB)";
     if (const std::string remarks = takeRemarks(*image); !remarks.empty()) map.report.reason += "; " + remarks;
     return Bytes(file->begin(), file->end());
 }
@@ -145,6 +145,7 @@ ConvertedHeights normalMapFromHeights(const Scene& scene, std::size_t material, 
     }
     std::optional<FloatImage> heights = decodeFloatImage(bytes, kMaxModelMapPixels, made.why_not, ImageUse::numbers);
     if (!heights) return made;
+    made.remarks = takeRemarks(*heights);
     if (!isGrayImage(*heights)) {
         made.is_height_map = isPicture(*heights);
         made.why_not = "the image is a color image, neither a height map nor a normal map";
@@ -158,11 +159,12 @@ ConvertedHeights normalMapFromHeights(const Scene& scene, std::size_t material, 
     Execution execution = options.execution;
     execution.allocator = nullptr;
     const std::vector<float> values = heightsOf(*heights);
+    const unsigned bits = std::min(heights->bits, kMaxPngBits);
     const HeightToNormalReport report = valueOrThrow(
         heightToNormal({heights->width, heights->height, values, mesh.wrap_u, mesh.wrap_v}, tangentSide(mesh.corners),
-                       {.strength = strength, .bits = heights->bits}, heights->texels, execution));
+                       {.strength = strength, .bits = bits}, heights->texels, execution));
     heights->alpha.clear();
-    const auto file = encodePng(*heights, heights->bits);
+    const auto file = encodePng(*heights, bits);
     if (!file) {
         made.why_not = "the normal map made from it could not be encoded as PNG";
         return made;

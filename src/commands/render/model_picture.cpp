@@ -487,6 +487,8 @@ std::vector<std::string> showHeights(Method method, const Execution& execution, 
                     normalMapFromHeights(scene, use.material, *use.image, look.normal_scale, options);
                 shown.is_height_map = made.is_height_map;
                 const std::string name = scene.images[*use.image].uri;
+                if (made.is_height_map && !made.remarks.empty())
+                    warnings.push_back("the height map '" + name + "': " + made.remarks);
                 if (!made.file.empty()) {
                     scene.memory->take(made.file.size(), {});
                     shown.image = scene.images.size();
