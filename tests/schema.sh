@@ -40,11 +40,11 @@ PY
     grep -qF -- "$4" "$folder/printed" || { cat "$folder/printed" && fail "\"$3\" in $1: nothing about \"$4\""; }
 }
 check=docs/schema/tspace.check.1.json
-must_find docs/reference/json.md 'human-readable summary in one sentence' 'a sentence' '+| `files[].findings[].message` | string | human-readable summary in one sentence |'
+must_find docs/reference/json.md 'human-readable summary in one sentence' 'a sentence' '+| `files[].findings[].message` | string | human-readable summary in one sentence: the symptom'
 must_find bindings/js/src/reports.d.ts 'worstDegrees: number' 'worstDegrees: string' '+  worstDegrees: number;'
 must_find bindings/python/src/tspace/_file_reports.py 'worst_degrees: float' 'worst_degrees: int' '+    worst_degrees: float'
 must_find $check '"remedy": {"type": "string"' '"remedy": {"type": "integer"' '+  remedy: number;'
-must_find $check '"message", "remedy", ' '"message", ' 'Finding: "required"'
+must_find $check '"cause", "remedy", ' '"cause", ' 'Finding: "required"'
 must_find $check '"description": "human-readable fix' '"description": "only where it is known: human-readable fix' 'Finding: "required"'
 must_find $check '"else": {"maxProperties": 3}' '"else": {"maxProperties": 9}' 'CheckReport: "else"'
 must_find $check '"additionalProperties": false' '"additionalProperties": true' 'CheckDocument is no object without other members'

@@ -136,7 +136,9 @@ struct Finding {
     double worst_deg = 0;                      ///< largest angle, for findings about angles; otherwise 0
     double confidence = 1;                     ///< 0 to 1; below 1 for findings based on statistics
     std::vector<std::uint32_t> vertices = {};  ///< first affected vertices, at most 8
-    std::string message = {};                  ///< one sentence
+    /// One sentence: the symptom, a colon and `cause`; only `cause` if the sentence names no symptom.
+    std::string message = {};
+    std::string cause = {};                    ///< what is wrong with the data, with figures
     std::string remedy = {};                   ///< fix for this finding; usually findingRemedy(code)
     std::vector<RemedyCommand> commands = {};  ///< commands that `remedy` mentions, in the same order
 };

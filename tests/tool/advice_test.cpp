@@ -26,14 +26,18 @@ using Places = std::set<std::pair<std::string, std::string>>;  // (code, place) 
 std::string inQuotes(const std::string& path) { return "'" + path + "'"; }
 
 /// Returns the findings of a file, or an empty list if it cannot be read. Checks that the text output contains every
-/// remedy.
+/// remedy, and that messages consist of an optional symptom and the cause.
 Json findingsOf(const TempFolder& folder, const std::string& file) {
     const ToolRun run = runTool(folder, "check --json --fail-on error " + inQuotes(file));
     const Json report = Json::parse(run.out, nullptr, false);
     if (!report.is_object() || !report["files"][0].contains("findings")) return {};
     const std::string text = runTool(folder, "check " + inQuotes(file)).out;
-    for (const Json& finding : report["files"][0]["findings"])
+    for (const Json& finding : report["files"][0]["findings"]) {
         EXPECT_NE(text.find(finding["remedy"]), std::string::npos) << finding["remedy"];
+        const std::string message = finding["message"], cause = finding["cause"];
+        EXPECT_FALSE(cause.empty()) << message;
+        EXPECT_TRUE(message == cause || message.ends_with(": " + cause)) << message << "\n" << cause;
+    }
     return report["files"][0]["findings"];
 }
 

@@ -28,7 +28,10 @@ test("the first view names and shows the fault, and one click fixes it", { skip:
     const left = await pixelsOf(tab);
     const near = shareOf(before, (i) => farApart(before.data, i, right.data, i) > 16), all = shareOf(left, (i) => farApart(left.data, i, right.data, i) > 16);
     assert.ok(at >= 0.4 && at <= 0.6 && near > 0.01 && near > 0.4 * all && near < 0.6 * all, `${at}: left of the line ${near} of the picture is wrong, in all ${all}`);
-    // The finding states its effect only once.
+    // The finding states its effect only once: it shows the cause, which the engine returns apart from the symptom.
+    const { cause, message } = await tab.evaluate(() => window.tspaceView.reports.check.findings[0]);
+    assert.equal(message, `bumps look like dents in places: ${cause}`);
+    assert.equal(await tab.locator(".finding .message").textContent(), cause);
     assert.equal((await tab.locator(".finding").textContent()).match(/dents/g).length, 1);
     for (const panel of [".inspector", ".findings"]) assert.ok(await tab.locator(panel).evaluate((one) => one.scrollWidth <= one.clientWidth), `${panel} overflows`);
     await tab.locator(".split").fill(String(Math.round(1000 * at)));

@@ -56,7 +56,7 @@ test("the report is copied as text, Markdown and JSON", { skip: missing }, async
     }
     const [text, markdown, json] = await tab.evaluate(() => window.copied);
     assert.match(text, /^crate-signs-lost\.glb\n\n1 error, 0 warnings, 0 notes\. tspace [\d.]+, [\d-]+\.\n\nerror {4}signsWrong at \/meshes\/0\/primitives\/0\n/);
-    assert.match(markdown, /^### crate-signs-lost\.glb\n[^]*\n- \*\*error\*\* `signsWrong`[^]*\n {2}- fix: .*generate --repair/);
+    assert.match(markdown, /^### crate-signs-lost\.glb\n[^]*\n- \*\*error\*\* `signsWrong`[^]* Cause: the sign \(w\) of [^]*\n {2}- fix: .*generate --repair/);
     assert.equal(JSON.parse(json).check.findings[0].code, "signsWrong");
   });
 });

@@ -121,8 +121,10 @@ export interface Finding {
   summary: string;
   /** The visible symptom, in a sentence that is the same for all findings of the code. */
   effect: string;
-  /** Human-readable summary in one sentence. */
+  /** Human-readable summary in one sentence: the symptom, a colon and "cause", or only "cause". */
   message: string;
+  /** What is wrong with the data, with figures: "message" without the symptom, which "effect" describes. */
+  cause: string;
   /** Human-readable fix. */
   remedy: string;
   /** View of "tspace render --show" that makes the fault visible; empty: none. */

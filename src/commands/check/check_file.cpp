@@ -54,14 +54,14 @@ void joinUnused(const Scene& scene, std::span<PrimitiveJudgement> judgements, st
     const Tally all{.count = unused.size(), .total = total};
     findings.push_back(
         makeFinding(FindingCode::tangentsUnused, Severity::note, all, "primitives",
-                    countText(all, "primitives with tangents") +
-                        " do not need them, because none of their materials uses a texture in tangent space"));
+                    {.cause = countText(all, "primitives with tangents") +
+                              " do not need them, because none of their materials uses a texture in tangent space"}));
 }
 
 /// Converts a warning from reading the file to a finding about the whole file, without a primitive.
 Finding fileRemark(const std::string& warning) {
     const Tally one{.count = 1, .total = 1};
-    return makeFinding(FindingCode::fileRemark, Severity::note, one, "files", warning);
+    return makeFinding(FindingCode::fileRemark, Severity::note, one, "files", {.cause = warning});
 }
 
 /// Sorts and counts the findings, and writes their remedies as text.
@@ -180,6 +180,7 @@ Json findingJson(const Finding& finding) {
         {"summary", findingSummary(finding.code)},
         {"effect", findingEffect(finding.code)},
         {"message", finding.message},
+        {"cause", finding.cause},
         {"remedy", finding.remedy},
         {"show", findingView(finding.code)},
         {"commands", listJson(finding.commands, commandJson)},

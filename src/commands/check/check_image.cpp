@@ -71,8 +71,8 @@ double lengthOf(const std::uint8_t* rgb) {
     return std::sqrt(part(0) * part(0) + part(1) * part(1) + part(2) * part(2));
 }
 
-Finding noteOn(FindingCode code, std::uint64_t count, std::uint64_t total, std::string message) {
-    return makeFinding(code, Severity::note, {.count = count, .total = total}, "texels", std::move(message));
+Finding noteOn(FindingCode code, std::uint64_t count, std::uint64_t total, FindingText text) {
+    return makeFinding(code, Severity::note, {.count = count, .total = total}, "texels", std::move(text));
 }
 
 /// Reports an image of a single color: either a flat map, or not a normal map.
@@ -85,10 +85,10 @@ std::optional<Finding> constantFinding(const std::string& name, const RgbImage& 
     const bool is_vector = std::fabs(lengthOf(first) - 1) < 0.1;
     const bool is_flat = is_vector && first[0] - 126 < 4 && first[1] - 126 < 4 && first[0] > 125 && first[1] > 125;
     Finding finding = noteOn(FindingCode::normalMapConstant, count, count,
-                             "the map is a single color: all texels of " + name + " are " + texelText(first) +
-                                 (is_flat     ? ", so the map is flat"
-                                  : is_vector ? ", so all normals have the same direction, which is not (0, 0, 1)"
-                                              : ", which is not a normal"));
+                             {.cause = "the map is a single color: all texels of " + name + " are " + texelText(first) +
+                                       (is_flat     ? ", so the map is flat"
+                                        : is_vector ? ", so all normals have the same direction, which is not (0, 0, 1)"
+                                                    : ", which is not a normal")});
     if (!is_flat) finding.severity = Severity::warning;
     return finding;
 }
@@ -110,10 +110,10 @@ std::optional<Finding> lengthFinding(const std::string& name, const RgbImage& im
     }
     if (total == 0 || static_cast<double>(count) < kMinShare * static_cast<double>(total)) return {};
     return noteOn(FindingCode::normalMapLengths, count, total,
-                  "the relief may look too strong or too weak: the vectors of " + name + " do not have unit length (" +
-                      std::to_string(count) + " of " + std::to_string(total) +
-                      " texels deviate by more than 0.1; mean length " + shortNumber(sum / static_cast<double>(total)) +
-                      ")");
+                  {.symptom = "the relief may look too strong or too weak",
+                   .cause = "the vectors of " + name + " do not have unit length (" + std::to_string(count) + " of " +
+                            std::to_string(total) + " texels deviate by more than 0.1; mean length " +
+                            shortNumber(sum / static_cast<double>(total)) + ")"});
 }
 
 /// Reports flat areas of 8-bit maps whose x and y are 127, which is half a step below 0 (128 is half a step above).
@@ -129,9 +129,11 @@ std::optional<Finding> zeroFinding(const std::string& name, const RgbImage& imag
     if (low <= high || static_cast<double>(low) < kMinShare * static_cast<double>(total)) return {};
     return noteOn(
         FindingCode::normalMapZero, low, total,
-        "flat areas may look slightly tilted: flat texels of " + name +
-            " are (127, 127), where most programs write (128, 128). Both values tilt the normal by 0.3 degrees, in "
-            "opposite directions; a reader that subtracts 128 / 255 shows 127 with a tilt of 0.6 degrees");
+        {.symptom = "flat areas may look slightly tilted",
+         .cause = "flat texels of " + name +
+                  " are (127, 127), where most programs write (128, 128). Both values tilt the normal by 0.3 "
+                  "degrees, in opposite directions; a reader that subtracts 128 / 255 shows 127 with a tilt of "
+                  "0.6 degrees"});
 }
 
 }  // namespace

@@ -332,25 +332,26 @@ const MapPart& partOf(const NormalMap& map) {
 Finding unreadable(const std::string& name, const std::string& why_not) {
     const Tally one{.count = 1, .total = 1};
     return makeFinding(FindingCode::normalMapUnreadable, Severity::note, one, "images",
-                       "the normal map " + name + " was not examined: " + why_not);
+                       {.cause = "the normal map " + name + " was not examined: " + why_not});
 }
 
 Finding flipped(const std::string& name, const GreenTest& test) {
     const Tally blocks{.count = test.down_block_count, .total = test.block_count};
     return makeFinding(FindingCode::greenFlipped, Severity::warning, blocks, "blocks",
-                       "bumps probably look like dents: red or green is inverted in the normal map " + name +
-                           "; nearly always it is green, which then points down as in DirectX. Found in " +
-                           countText(blocks, "blocks") + " of 16 x 16 pixels with relief");
+                       {.symptom = "bumps probably look like dents",
+                        .cause = "red or green is inverted in the normal map " + name +
+                                 "; nearly always it is green, which then points down as in DirectX. Found in " +
+                                 countText(blocks, "blocks") + " of 16 x 16 pixels with relief"});
 }
 
 Finding mixed(const std::string& name, const GreenTest& test) {
     const Tally blocks{.count = test.down_block_count, .total = test.block_count};
     return makeFinding(
         FindingCode::greenMixed, Severity::warning, blocks, "blocks",
-        "bumps probably look like dents in one part: green seems to point down in one part of the normal map " + name +
-            " (" + rectText(test.down_part) + " from the top left) and up in another (" + rectText(test.up_part) +
-            "): green points down in " + countText(blocks, "blocks") + " of 16 x 16 pixels with relief (" +
-            shareText(blocks.share()) + ")");
+        {.symptom = "bumps probably look like dents in one part",
+         .cause = "green seems to point down in one part of the normal map " + name + " (" + rectText(test.down_part) +
+                  " from the top left) and up in another (" + rectText(test.up_part) + "): green points down in " +
+                  countText(blocks, "blocks") + " of 16 x 16 pixels with relief (" + shareText(blocks.share()) + ")"});
 }
 
 NamedImage namedImage(const Scene& scene, const NormalMap& map) {
@@ -384,7 +385,7 @@ void describeReading(const Scene& scene, const NormalMap& map, const std::string
     if (map.not_finite > 0) {
         const Tally texels{.count = map.not_finite, .total = claimedSize(scene.images[map.image].bytes).pixels()};
         findings.push_back(makeFinding(FindingCode::fileRemark, Severity::warning, texels, "texels",
-                                       "the normal map " + name + ": " + notFiniteText(map.not_finite)));
+                                       {.cause = "the normal map " + name + ": " + notFiniteText(map.not_finite)}));
         conversion.text =
             "Find the program that wrote NaN or infinity, and export the map again; or keep the filled "
             "texels. " +
@@ -394,7 +395,7 @@ void describeReading(const Scene& scene, const NormalMap& map, const std::string
     if (map.layer_text.empty()) return;
     const Tally one{.count = 1, .total = 1};
     findings.push_back(makeFinding(FindingCode::fileRemark, Severity::note, one, "images",
-                                   "the normal map " + name + ": " + map.layer_text));
+                                   {.cause = "the normal map " + name + ": " + map.layer_text}));
     setRemedy(findings.back(), Remedy{"No action is needed if these channels are the normal map. Otherwise export the "
                                       "layer of the normal map alone.",
                                       {}});
@@ -410,7 +411,7 @@ void describeStorage(const Scene& scene, const NormalMap& map, const std::string
     const auto add = [&](FindingCode code, Severity severity, std::string text) -> Finding& {
         const Tally one{.count = 1, .total = 1};
         return findings.emplace_back(
-            makeFinding(code, severity, one, "images", "the normal map " + name + std::move(text)));
+            makeFinding(code, severity, one, "images", {.cause = "the normal map " + name + std::move(text)}));
     };
     if (isEtc1s(facts) || isLossyWebp(image.bytes)) {
         std::string text =
@@ -461,10 +462,10 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         const NamedImage named = namedImage(scene, map);
         const bool green_is_down = isDown(map) && !(has_own_green && isDeclared(map));
         std::optional<Finding> content = contentFinding(named, map.analysis, green_is_down);
-        if (content && facts) content->message += " (format: " + facts->name + ")";
+        if (content && facts) extendCause(*content, " (format: " + facts->name + ")");
         if (content && map.analysis.content == MapContent::height && mayBeHeights(map)) {
             content->severity = Severity::note;
-            content->message = name + " is a height map (map_bump), not a normal map";
+            content->message = content->cause = name + " is a height map (map_bump), not a normal map";
             setRemedy(*content, {"No action is needed: generate makes a normal map from it, with -bm as its height in "
                                  "model units. To convert the image alone: {}.",
                                  {toCommand("height-to-normal MAP -o OUT.png --strength S")}});
@@ -489,8 +490,8 @@ std::vector<Finding> describe(const Scene& scene, const NormalMap& map) {
         placeAt(*part.primitive, part.use->place, finding);
         if (!map.is_of_unknown) continue;
         finding.severity = Severity::note;
-        finding.message += " (the map was checked like a normalTexture, because only " + part.use->needed_by +
-                           ", which tspace does not know, uses it)";
+        extendCause(finding, " (the map was checked like a normalTexture, because only " + part.use->needed_by +
+                                 ", which tspace does not know, uses it)");
     }
     return findings;
 }
@@ -567,8 +568,9 @@ std::vector<Finding> checkMapScales(const Scene& scene) {
             findings.push_back(makeFinding(
                 FindingCode::normalMapScale, Severity::note, one, "textures",
                 use.scale == 0
-                    ? "the normal map has no visible effect: its scale is 0"
-                    : "bumps look like dents: the scale of the normal map is negative, which inverts red and green"));
+                    ? FindingText{.symptom = "no bumps are visible", .cause = "the scale of the normal map is 0"}
+                    : FindingText{.symptom = "bumps look like dents",
+                                  .cause = "the scale of the normal map is negative, which inverts red and green"}));
             placeAt(primitive, use.place, findings.back());
         }
     }

@@ -40,14 +40,14 @@ struct MorphFault {
         if (whole_area > 0) far_share = std::max(far_share, far_area / whole_area);
     }
 
-    /// Adds a finding if any target has the fault. `what`: the message without the error angle. `vectors`: "normals" or
+    /// Adds a finding if any target has the fault. `text`: its cause lacks the error angle. `vectors`: "normals" or
     /// "tangents".
-    void report(PrimitiveFacts& facts, FindingCode code, Severity severity, const std::string& what,
+    void report(PrimitiveFacts& facts, FindingCode code, Severity severity, FindingText text,
                 const char* vectors) const {
         if (targets.count == 0) return;
-        facts.add(
-            code, severity, targets, "targets",
-            what + "; at full weight " + vectors + " are off by up to " + decimalText(targets.worst_deg) + " degrees");
+        text.cause += std::string("; at full weight ") + vectors + " are off by up to " +
+                      decimalText(targets.worst_deg) + " degrees";
+        facts.add(code, severity, targets, "targets", std::move(text));
         facts.findings.back().place = facts.primitive.place + "/targets/" + std::to_string(first);
     }
 };
@@ -96,11 +96,11 @@ class MorphValues {
     void report(FindingCode code, const FaultyTargets& faulty, const char* attribute, const std::string& what) {
         if (faulty.count == 0) return;
         const std::size_t more = faulty.count - 1;
-        std::string message = "the offsets of morph target " + std::to_string(faulty.first) + " for the " + attribute +
-                              " of " + countText(faulty.vertices, "vertices") + " " + what;
+        std::string cause = "the offsets of morph target " + std::to_string(faulty.first) + " for the " + attribute +
+                            " of " + countText(faulty.vertices, "vertices") + " " + what;
         if (more != 0)
-            message += "; the same error occurs in " + std::to_string(more) + " more target" + (more == 1 ? "" : "s");
-        facts_.add(code, Severity::error, faulty.vertices, "vertices", std::move(message));
+            cause += "; the same error occurs in " + std::to_string(more) + " more target" + (more == 1 ? "" : "s");
+        facts_.add(code, Severity::error, faulty.vertices, "vertices", {.cause = std::move(cause)});
         Finding& finding = facts_.findings.back();
         finding.place = facts_.primitive.place + "/targets/" + std::to_string(faulty.first);
         if (code == FindingCode::positionsNotFinite) return;
@@ -197,14 +197,14 @@ class MorphNormalsChecker {
         const double share = facts_.options.error_share;
         missing_.report(facts_, FindingCode::morphNormalsMissing,
                         missing_.targets.surface_share >= share ? Severity::warning : Severity::note,
-                        "shading is wrong when the mesh deforms: " +
-                            countText(missing_.targets, "targets without normal deltas") + " rotate the surface",
+                        {.symptom = "shading is wrong when the mesh deforms",
+                         .cause = countText(missing_.targets, "targets without normal deltas") + " rotate the surface"},
                         "normals");
-        wrong_.report(facts_, FindingCode::morphNormalsWrong,
-                      wrong_.far_share >= share ? Severity::error : Severity::warning,
-                      "shading is wrong when the mesh deforms: the normals of " + countText(wrong_.targets, "targets") +
-                          " do not rotate with the surface",
-                      "normals");
+        wrong_.report(
+            facts_, FindingCode::morphNormalsWrong, wrong_.far_share >= share ? Severity::error : Severity::warning,
+            {.symptom = "shading is wrong when the mesh deforms",
+             .cause = "the normals of " + countText(wrong_.targets, "targets") + " do not rotate with the surface"},
+            "normals");
     }
 
   private:
@@ -398,16 +398,17 @@ class MorphChecker {
 
     void report() {
         const double share = facts_.options.error_share;
-        missing_.report(facts_, FindingCode::morphTangentsMissing,
-                        missing_.targets.surface_share >= share ? Severity::warning : Severity::note,
-                        "the relief is lit incorrectly when the mesh deforms: " +
-                            countText(missing_.targets, "targets") + " without tangent deltas rotate the surface",
-                        "tangents");
-        wrong_.report(facts_, FindingCode::morphTangentsWrong,
-                      wrong_.far_share >= share ? Severity::error : Severity::warning,
-                      "the relief is lit incorrectly when the mesh deforms: the tangents of " +
-                          countText(wrong_.targets, "targets") + " do not fit the morphed surface",
-                      "tangents");
+        missing_.report(
+            facts_, FindingCode::morphTangentsMissing,
+            missing_.targets.surface_share >= share ? Severity::warning : Severity::note,
+            {.symptom = "the relief is lit incorrectly when the mesh deforms",
+             .cause = countText(missing_.targets, "targets") + " without tangent deltas rotate the surface"},
+            "tangents");
+        wrong_.report(
+            facts_, FindingCode::morphTangentsWrong, wrong_.far_share >= share ? Severity::error : Severity::warning,
+            {.symptom = "the relief is lit incorrectly when the mesh deforms",
+             .cause = "the tangents of " + countText(wrong_.targets, "targets") + " do not fit the morphed surface"},
+            "tangents");
     }
 
   private:

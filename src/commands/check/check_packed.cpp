@@ -109,7 +109,7 @@ bool canPack(const ScenePrimitive& primitive) {
 Finding unreadablePacking(const ScenePrimitive& primitive, const ScenePacked& packed) {
     const Tally one{.count = 1, .total = 1};
     Finding finding = makeFinding(FindingCode::packedFramesUnreadable, Severity::warning, one, "attributes",
-                                  packed.attribute + " " + packed.fault);
+                                  {.cause = packed.attribute + " " + packed.fault});
     setRemedy(finding,
               canPack(primitive)
                   ? packAgain(packed.format)
@@ -120,7 +120,7 @@ Finding unreadablePacking(const ScenePrimitive& primitive, const ScenePacked& pa
 Finding differingPacking(const ScenePacked& packed, const PackedErrors& errors) {
     const bool can_be_seen = errors.sign_count != 0 || errors.beyond.worst_deg > kVisible_deg;
     Finding finding = makeFinding(FindingCode::packedFramesDiffer, can_be_seen ? Severity::warning : Severity::note,
-                                  errors.beyond, "vertices", differenceText(packed, errors));
+                                  errors.beyond, "vertices", {.cause = differenceText(packed, errors)});
     setRemedy(finding, packAgain(packed.format));
     return finding;
 }

@@ -196,13 +196,14 @@ class MeshSeams {
         Tally tally{.count = seam.likely.size(), .total = seam.places.size()};
         tally.worst_deg = seam.worst_deg;
         tally.vertices = seam.vertices;
-        Finding finding =
-            makeFinding(FindingCode::normalSeam, Severity::note, tally, "positions",
-                        "an edge is visible on a smooth surface: the normals of this primitive and of primitive " +
-                            std::to_string(second.primitive) + " differ by up to " + decimalText(seam.worst_deg) +
-                            " degrees at " + std::to_string(seam.likely.size()) +
-                            " positions of their common border; the normals of each primitive are computed from its "
-                            "own triangles only");
+        Finding finding = makeFinding(
+            FindingCode::normalSeam, Severity::note, tally, "positions",
+            {.symptom = "an edge is visible on a smooth surface",
+             .cause = "the normals of this primitive and of primitive " + std::to_string(second.primitive) +
+                      " differ by up to " + decimalText(seam.worst_deg) + " degrees at " +
+                      std::to_string(seam.likely.size()) +
+                      " positions of their common border; the normals of each primitive are computed from its "
+                      "own triangles only"});
         placeAt(first, first.place, finding);
         return finding;
     }
@@ -215,9 +216,9 @@ class MeshSeams {
 
 Finding notCompared(const ScenePrimitive& first, const std::string& why) {
     const Tally one{.count = 1, .total = 1};
-    Finding finding =
-        makeFinding(FindingCode::fileRemark, Severity::note, one, "meshes",
-                    "normals at the borders of the primitives of this mesh were not compared: comparing them " + why);
+    Finding finding = makeFinding(
+        FindingCode::fileRemark, Severity::note, one, "meshes",
+        {.cause = "normals at the borders of the primitives of this mesh were not compared: comparing them " + why});
     placeAt(first, first.place, finding);
     finding.material_name.clear();  // the finding concerns the whole mesh
     return finding;

@@ -279,18 +279,19 @@ void addExplanation(PrimitiveFacts& facts, const FrameHealth& health, const Othe
     const Tally& wrong = areDirectionsWrong(health, facts.surface) ? health.directions_wrong : health.signs_wrong;
     FindingCode code = FindingCode::textureTransformIgnored;
     Severity severity = Severity::warning;
-    std::string message = "the relief is lit from the wrong direction: the tangents follow " + set +
-                          " without the rotation or mirroring of KHR_texture_transform for " +
-                          facts.primitive.uses.front().needed_by;
+    std::string cause = "the tangents follow " + set +
+                        " without the rotation or mirroring of KHR_texture_transform for " +
+                        facts.primitive.uses.front().needed_by;
     if (other.reading.uv_set != facts.reading.uv_set) {
         code = FindingCode::uvSetWrong;
-        message = "the relief is lit from the wrong direction: the tangents follow TEXCOORD_" +
-                  std::to_string(other.reading.uv_set) + ", but the texture uses " + set;
+        cause =
+            "the tangents follow TEXCOORD_" + std::to_string(other.reading.uv_set) + ", but the texture uses " + set;
         if (!other.use && !whyTangentsAreWrong(health, facts.options).empty()) severity = Severity::error;
     }
     if (other.use)
-        message += "; " + facts.primitive.uses[*other.use].needed_by + " uses the UVs that the tangents follow";
-    facts.add(code, severity, wrong, "vertices", message);
+        cause += "; " + facts.primitive.uses[*other.use].needed_by + " uses the UVs that the tangents follow";
+    facts.add(code, severity, wrong, "vertices",
+              {.symptom = "the relief is lit from the wrong direction", .cause = std::move(cause)});
     // The vertices are faulty even if another texture uses the UVs that the tangents fit, because the first texture
     // decides.
     for (const std::uint32_t vertex : facts.mesh.corners) facts.faults[vertex] |= faultBit(code);
@@ -302,7 +303,7 @@ void checkUnreadable(PrimitiveFacts& facts) {
         const std::string what =
             fault.target < 0 ? "the tangents" : "the tangent deltas of morph target " + std::to_string(fault.target);
         facts.add(FindingCode::tangentsUnreadable, Severity::error, all, "vertices",
-                  what + " cannot be read: " + fault.why);
+                  {.cause = what + " cannot be read: " + fault.why});
     }
 }
 
@@ -320,14 +321,14 @@ void checkTangentsMissing(PrimitiveFacts& facts) {
     const std::string& user = facts.primitive.uses.front().needed_by;
     if (const ScenePacked* packed = facts.primitive.packedAlone()) {
         facts.add(FindingCode::tangentsMissing, Severity::note, all, "vertices",
-                  user + " needs tangents, which exist only in the packed frames of " + packed->attribute);
+                  {.cause = user + " needs tangents, which exist only in the packed frames of " + packed->attribute});
         return;
     }
-    facts.add(
-        FindingCode::tangentsMissing, facts.is_gltf ? Severity::warning : Severity::note, all, "vertices",
-        facts.is_gltf
-            ? user + " needs tangents, but the primitive has none, so the relief may look different in each renderer"
-            : user + " needs tangents, but they " + state + "; tspace generate writes a glTF file with tangents");
+    facts.add(FindingCode::tangentsMissing, facts.is_gltf ? Severity::warning : Severity::note, all, "vertices",
+              {.cause = user + (facts.is_gltf ? std::string(" needs tangents, but the primitive has none, so the "
+                                                            "relief may look different in each renderer")
+                                              : std::string(" needs tangents, but they ") + state +
+                                                    "; tspace generate writes a glTF file with tangents")});
 }
 
 /// Replaces the triangles by the quads on which the tangents were computed, if any.
@@ -356,13 +357,15 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
     if (facts.primitive.uses.empty() && !facts.primitive.mayHaveAuthoredTangents()) {
         // No material reads these tangents, so faults in them are invisible.
         facts.add(FindingCode::tangentsUnused, Severity::note, all, "vertices",
-                  "the file is larger than necessary: the primitive has tangents, but its material needs none");
+                  {.symptom = "the file is larger than necessary",
+                   .cause = "the primitive has tangents, but its material needs none"});
         return Done{};
     }
     if (facts.mesh.normals.empty()) {
         if (facts.primitive.findFault("NORMAL") != nullptr) return Done{};
         facts.add(FindingCode::tangentsIgnored, Severity::warning, all, "vertices",
-                  "the tangents have no effect: without normals, glTF requires readers to ignore tangents");
+                  {.symptom = "the tangents have no effect",
+                   .cause = "without normals, glTF requires readers to ignore tangents"});
         return Done{};
     }
     Result<FrameHealth> health = examineTangents(facts.mesh, facts.surface, facts.options);
@@ -391,8 +394,8 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
     }
     for (Finding& finding : tangentFindings(*health, facts.options)) {
         if (finding.code == FindingCode::directionsWrong && !axes.empty()) {
-            finding.message += "; they fit if the stored vectors are read as (" + axes +
-                               "), so the mesh was rotated to other axes without its tangents";
+            extendCause(finding, "; they fit if the stored vectors are read as (" + axes +
+                                     "), so the mesh was rotated to other axes without its tangents");
         }
         // Without a texture, the direction in which v increases is seldom visible.
         if (finding.code == FindingCode::signsMixed && facts.primitive.mayHaveAuthoredTangents())

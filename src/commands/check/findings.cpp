@@ -22,7 +22,7 @@ const char* severityName(Severity severity) {
     return "";
 }
 
-Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message) {
+Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, const char* unit, FindingText text) {
     Finding finding;
     finding.code = code;
     finding.severity = severity;
@@ -32,9 +32,15 @@ Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, con
     finding.surface_share = tally.surface_share;
     finding.worst_deg = tally.worst_deg;
     finding.vertices = tally.vertices;
-    finding.message = std::move(message);
+    finding.message = text.symptom.empty() ? text.cause : text.symptom + ": " + text.cause;
+    finding.cause = std::move(text.cause);
     setRemedy(finding, usualRemedy(code));
     return finding;
+}
+
+void extendCause(Finding& finding, const std::string& more) {
+    finding.cause += more;
+    finding.message += more;
 }
 
 void placeAt(const ScenePrimitive& primitive, const std::string& place, Finding& finding) {
@@ -97,15 +103,15 @@ class FindingList {
   public:
     explicit FindingList(const CheckOptions& options) : options_(options) {}
 
-    void add(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message) {
+    void add(FindingCode code, Severity severity, const Tally& tally, const char* unit, FindingText text) {
         if (tally.count == 0) return;
         findings.push_back(
-            makeFinding(code, onShare(severity, tally.surface_share, options_), tally, unit, std::move(message)));
+            makeFinding(code, onShare(severity, tally.surface_share, options_), tally, unit, std::move(text)));
     }
 
     /// Adds a finding for any number of vertices, regardless of their share of the surface.
-    void addWhole(FindingCode code, Severity severity, const Tally& tally, std::string message) {
-        if (tally.count != 0) findings.push_back(makeFinding(code, severity, tally, kVertices, std::move(message)));
+    void addWhole(FindingCode code, Severity severity, const Tally& tally, FindingText text) {
+        if (tally.count != 0) findings.push_back(makeFinding(code, severity, tally, kVertices, std::move(text)));
     }
 
     std::vector<Finding> findings = {};
@@ -120,18 +126,20 @@ void addValues(const FrameHealth& health, const CheckOptions& options, FindingLi
     };
     list.addWhole(FindingCode::tangentsNotFinite, health.has_not_finite ? Severity::error : Severity::warning,
                   health.not_finite,
-                  "the surface has black or flickering spots: the tangents of " +
-                      countText(health.not_finite, kVertices) + " are NaN or infinite");
+                  {.symptom = "the surface has black or flickering spots",
+                   .cause = "the tangents of " + countText(health.not_finite, kVertices) + " are NaN or infinite"});
     list.addWhole(FindingCode::tangentsNotUnit, health.has_zero ? Severity::error : severity(health.far_from_unit),
                   health.not_unit,
-                  "the relief looks too strong or too weak: the tangents of " + countText(health.not_unit, kVertices) +
-                      " do not have unit length" + (health.has_zero ? ", some have length 0" : "") +
-                      onSurface(health.not_unit));
+                  {.symptom = "the relief looks too strong or too weak",
+                   .cause = "the tangents of " + countText(health.not_unit, kVertices) + " do not have unit length" +
+                            (health.has_zero ? ", some have length 0" : "") + onSurface(health.not_unit)});
     Tally all_tilted = health.not_orthogonal;
     if (health.parallel_apart) {
-        list.addWhole(FindingCode::tangentsNotOrthogonal, Severity::error, health.parallel,
-                      "the relief vanishes or turns black: the tangents of " + countText(health.parallel, kVertices) +
-                          " are parallel to the normal, so the bitangent is undefined" + onSurface(health.parallel));
+        list.addWhole(
+            FindingCode::tangentsNotOrthogonal, Severity::error, health.parallel,
+            {.symptom = "the relief vanishes or turns black",
+             .cause = "the tangents of " + countText(health.parallel, kVertices) +
+                      " are parallel to the normal, so the bitangent is undefined" + onSurface(health.parallel)});
     } else {
         all_tilted.include(health.parallel);
     }
@@ -139,34 +147,39 @@ void addValues(const FrameHealth& health, const CheckOptions& options, FindingLi
         !health.parallel_apart && health.parallel.surface_share >= options.error_share && health.parallel.count != 0;
     list.addWhole(
         FindingCode::tangentsNotOrthogonal, is_parallel ? Severity::error : Severity::warning, all_tilted,
-        "the relief may look tilted: the tangents of " + countText(all_tilted, kVertices) +
-            " are not perpendicular to the normal; they deviate by up to " + decimalText(all_tilted.worst_deg) +
-            " degrees" +
-            (is_parallel ? "; " + std::to_string(health.parallel.count) + " of them are parallel to it" : "") +
-            onSurface(all_tilted));
+        {.symptom = "the relief may look tilted",
+         .cause = "the tangents of " + countText(all_tilted, kVertices) +
+                  " are not perpendicular to the normal; they deviate by up to " + decimalText(all_tilted.worst_deg) +
+                  " degrees" +
+                  (is_parallel ? "; " + std::to_string(health.parallel.count) + " of them are parallel to it" : "") +
+                  onSurface(all_tilted)});
     list.addWhole(FindingCode::signsNotOne, health.sign_vanishes ? Severity::error : Severity::warning,
                   health.sign_not_one,
-                  "the relief may look too strong, too weak or flat: the sign (w) of " +
-                      countText(health.sign_not_one, kVertices) + " is neither +1 nor -1");
+                  {.symptom = "the relief may look too strong, too weak or flat",
+                   .cause = "the sign (w) of " + countText(health.sign_not_one, kVertices) + " is neither +1 nor -1"});
 }
 
 void addSigns(const FrameHealth& health, FindingList& list) {
     if (health.all_signs_wrong) {
-        list.add(
-            FindingCode::signsInverted, Severity::error, health.signs_wrong, kVertices,
-            "bumps look like dents along v: every sign is inverted, so w is the opposite of what the UVs require at " +
-                countText(health.signs_wrong, kVertices));
+        list.add(FindingCode::signsInverted, Severity::error, health.signs_wrong, kVertices,
+                 {.symptom = "bumps look like dents along v",
+                  .cause = "every sign is inverted, so w is the opposite of what the UVs require at " +
+                           countText(health.signs_wrong, kVertices)});
     } else {
         list.add(FindingCode::signsWrong, Severity::error, health.signs_wrong, kVertices,
-                 "bumps look like dents in places: the sign (w) of " + countText(health.signs_wrong, kVertices) +
-                     " is the opposite of what the UVs require" + onSurface(health.signs_wrong));
+                 {.symptom = "bumps look like dents in places",
+                  .cause = "the sign (w) of " + countText(health.signs_wrong, kVertices) +
+                           " is the opposite of what the UVs require" + onSurface(health.signs_wrong)});
     }
-    list.add(FindingCode::signsMixed, Severity::error, health.signs_mixed, kTriangles,
-             "triangles have dark spots: the corners of " + countText(health.signs_mixed, kTriangles) +
-                 " have different signs, so the bitangent vanishes between them" + onSurface(health.signs_mixed));
+    list.add(
+        FindingCode::signsMixed, Severity::error, health.signs_mixed, kTriangles,
+        {.symptom = "triangles have dark spots",
+         .cause = "the corners of " + countText(health.signs_mixed, kTriangles) +
+                  " have different signs, so the bitangent vanishes between them" + onSurface(health.signs_mixed)});
     list.add(FindingCode::mirroredSeamAveraged, Severity::error, health.mirrored_seams, kVertices,
-             "a seam is visible along a mirrored UV border: both sides share one tangent at " +
-                 countText(health.mirrored_seams, kVertices) + onSurface(health.mirrored_seams));
+             {.symptom = "a seam is visible along a mirrored UV border",
+              .cause = "both sides share one tangent at " + countText(health.mirrored_seams, kVertices) +
+                       onSurface(health.mirrored_seams)});
 }
 
 void addDirections(const FrameHealth& health, const CheckOptions& options, FindingList& list) {
@@ -175,17 +188,20 @@ void addDirections(const FrameHealth& health, const CheckOptions& options, Findi
         return tally.surface_share >= options.error_share ? Severity::warning : Severity::note;
     };
     list.add(FindingCode::uvSeamAveraged, severity(health.uv_seams), health.uv_seams, kVertices,
-             "a seam is visible along a UV border: the tangents of " + countText(health.uv_seams, kVertices) +
-                 " are averaged over both sides and fit neither; they deviate by up to " +
-                 decimalText(health.uv_seams.worst_deg) + " degrees" + onSurface(health.uv_seams));
-    list.add(FindingCode::directionsWrong, severity(health.directions_wrong), health.directions_wrong, kVertices,
-             "the relief is lit from the wrong direction: the tangents of " +
-                 countText(health.directions_wrong, kVertices) +
-                 " do not point along increasing u; they deviate by up to " +
-                 decimalText(health.directions_wrong.worst_deg) + " degrees" + onSurface(health.directions_wrong));
+             {.symptom = "a seam is visible along a UV border",
+              .cause = "the tangents of " + countText(health.uv_seams, kVertices) +
+                       " are averaged over both sides and fit neither; they deviate by up to " +
+                       decimalText(health.uv_seams.worst_deg) + " degrees" + onSurface(health.uv_seams)});
+    list.add(
+        FindingCode::directionsWrong, severity(health.directions_wrong), health.directions_wrong, kVertices,
+        {.symptom = "the relief is lit from the wrong direction",
+         .cause = "the tangents of " + countText(health.directions_wrong, kVertices) +
+                  " do not point along increasing u; they deviate by up to " +
+                  decimalText(health.directions_wrong.worst_deg) + " degrees" + onSurface(health.directions_wrong)});
     list.add(FindingCode::splitFramesDiffer, Severity::warning, health.frames_differ, kVertices,
-             "an edge is visible on a smooth surface: " + countText(health.frames_differ, kVertices) +
-                 " equal another vertex in position, normal and UV, but have a different tangent");
+             {.symptom = "an edge is visible on a smooth surface",
+              .cause = countText(health.frames_differ, kVertices) +
+                       " equal another vertex in position, normal and UV, but have a different tangent"});
 }
 
 }  // namespace

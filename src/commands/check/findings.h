@@ -18,8 +18,17 @@ struct ScenePrimitive;
 /// is none.
 const char* findingView(FindingCode code);
 
+/// The message of a finding in two parts.
+struct FindingText {
+    std::string symptom = {};  ///< "bumps look like dents along v"; empty: the message is the cause alone
+    std::string cause = {};    ///< Finding::cause
+};
+
 /// Creates a finding with the numbers of the tally and without a location.
-Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message);
+Finding makeFinding(FindingCode code, Severity severity, const Tally& tally, const char* unit, FindingText text);
+
+/// Appends a clause to the cause, and therefore to the message.
+void extendCause(Finding& finding, const std::string& more);
 
 /// Sets the location of a finding: `place` in the primitive.
 void placeAt(const ScenePrimitive& primitive, const std::string& place, Finding& finding);

@@ -60,75 +60,93 @@ FindingCode codeOf(MapContent content) {
     return FindingCode::normalMapIsHeight;
 }
 
-std::string messageOf(const NamedImage& image, const MapAnalysis& analysis) {
+FindingText textOf(const NamedImage& image, const MapAnalysis& analysis) {
     const std::string& name = image.name;
     const MapLayout& layout = analysis.layout;
     const bool is_srgb = layout.curve == MapCurve::srgb;
     switch (analysis.content) {
         case MapContent::twoChannels:
-            return "the relief is lit incorrectly: the normal map " + name +
-                   " holds only x and y, in red and green; its blue is constant, but glTF reads z there" +
-                   doubtOf(analysis);
+            return {.symptom = "the relief is lit incorrectly",
+                    .cause = "the normal map " + name +
+                             " holds only x and y, in red and green; its blue is constant, but glTF reads z there" +
+                             doubtOf(analysis)};
         case MapContent::unsignedZ:
-            return "the relief looks too steep: blue of the normal map " + name +
-                   " stores z itself, from 0 to 1, instead of (z + 1) / 2";
+            return {
+                .symptom = "the relief looks too steep",
+                .cause = "blue of the normal map " + name + " stores z itself, from 0 to 1, instead of (z + 1) / 2"};
         case MapContent::xInAlpha:
             if (layout.x.channel != MapChannel::alpha || layout.y.channel != MapChannel::green) {
-                return "the relief is lit incorrectly: the normal map " + name + " holds only " +
-                       axisText("x", layout.x) + " and " + axisText("y", layout.y) +
-                       ", and no z, which glTF reads in blue" + doubtOf(analysis);
+                return {.symptom = "the relief is lit incorrectly",
+                        .cause = "the normal map " + name + " holds only " + axisText("x", layout.x) + " and " +
+                                 axisText("y", layout.y) + ", and no z, which glTF reads in blue" + doubtOf(analysis)};
             }
-            return "the relief is lit incorrectly: the normal map " + name +
-                   " holds x in alpha and y in green (DXT5nm) and no z; red and blue are unused" + doubtOf(analysis);
+            return {.symptom = "the relief is lit incorrectly",
+                    .cause = "the normal map " + name +
+                             " holds x in alpha and y in green (DXT5nm) and no z; red and blue are unused" +
+                             doubtOf(analysis)};
         case MapContent::exchanged:
             if (layout.z == MapLayout{}.z) {
-                return "the relief is lit from the wrong direction: red and green of the normal map " + name +
-                       " are exchanged: its slopes are those of a height field only with x in green and y in red";
+                return {.symptom = "the relief is lit from the wrong direction",
+                        .cause =
+                            "red and green of the normal map " + name +
+                            " are exchanged: its slopes are those of a height field only with x in green and y in red"};
             }
-            return "the relief is lit from the wrong direction: channels of the normal map " + name +
-                   " are exchanged: it has " + axisText("x", layout.x) + ", " + axisText("y", layout.y) + " and " +
-                   axisText("z", layout.z) + "; its vectors point along this z on average";
+            return {.symptom = "the relief is lit from the wrong direction",
+                    .cause = "channels of the normal map " + name + " are exchanged: it has " +
+                             axisText("x", layout.x) + ", " + axisText("y", layout.y) + " and " +
+                             axisText("z", layout.z) + "; its vectors point along this z on average"};
         case MapContent::encoded:
-            return "the relief looks tilted: the normal map " + name +
-                   " was stored as a color image: its texels are unit vectors only after the sRGB curve is " +
-                   (is_srgb ? "removed (flat is about 188, not 128)" : "applied (flat is about 55, not 128)");
+            return {
+                .symptom = "the relief looks tilted",
+                .cause = "the normal map " + name +
+                         " was stored as a color image: its texels are unit vectors only after the sRGB curve is " +
+                         (is_srgb ? "removed (flat is about 188, not 128)" : "applied (flat is about 55, not 128)")};
         case MapContent::objectSpace:
             if (!analysis.follows_mesh) {
-                return "the whole model is lit incorrectly: the normal map " + name +
-                       " is not in tangent space: its vectors point in all directions, as in object or world space" +
-                       (image.is_alone ? "" : ", though not along the normals of this mesh");
+                return {
+                    .symptom = "the whole model is lit incorrectly",
+                    .cause =
+                        "the normal map " + name +
+                        " is not in tangent space: its vectors point in all directions, as in object or world space" +
+                        (image.is_alone ? "" : ", though not along the normals of this mesh")};
             }
-            return "the whole model is lit incorrectly: the normal map " + name +
-                   (analysis.is_in_world ? " is in world space: its vectors follow the normals after node transforms"
-                                         : " is in object space: its vectors follow the normals of the mesh") +
-                   (layout == MapLayout{} ? std::string()
-                                          : ", with " + axisText("x", layout.x) + ", " + axisText("y", layout.y) +
-                                                " and " + axisText("z", layout.z));
+            return {.symptom = "the whole model is lit incorrectly",
+                    .cause = "the normal map " + name +
+                             (analysis.is_in_world
+                                  ? " is in world space: its vectors follow the normals after node transforms"
+                                  : " is in object space: its vectors follow the normals of the mesh") +
+                             (layout == MapLayout{} ? std::string()
+                                                    : ", with " + axisText("x", layout.x) + ", " +
+                                                          axisText("y", layout.y) + " and " + axisText("z", layout.z))};
         case MapContent::picture:
             if (analysis.is_x_lost) {
-                return name +
-                       " cannot be used as a normal map: only green varies, like y of a map with x in alpha (DXT5nm), "
-                       "but the alpha channel is missing";
+                return {
+                    .cause =
+                        name +
+                        " cannot be used as a normal map: only green varies, like y of a map with x in alpha (DXT5nm), "
+                        "but the alpha channel is missing"};
             }
             if (analysis.holds_directions) {
-                return name +
-                       " is not a normal map: red and green are directions in the surface, with length 1 and without "
-                       "z, as in a flow or anisotropy map";
+                return {
+                    .cause =
+                        name +
+                        " is not a normal map: red and green are directions in the surface, with length 1 and without "
+                        "z, as in a flow or anisotropy map"};
             }
-            return name +
-                   " is a color image, not a normal map: its texels do not decode to unit vectors that point away from "
-                   "the surface";
+            return {.cause = name +
+                             " is a color image, not a normal map: its texels do not decode to unit vectors that point "
+                             "away from the surface"};
         case MapContent::hemiOctahedral:
-            return "the relief is lit incorrectly: the normal map " + name +
-                   " is hemi-octahedrally encoded: " + channelName(layout.x.channel) + " and " +
-                   channelName(layout.y.channel) +
-                   " hold x + y and x - y of (x, y, z) / (|x| + |y| + z), as the slopes of the map show, and glTF does "
-                   "not have this encoding";
+            return {.symptom = "the relief is lit incorrectly",
+                    .cause = "the normal map " + name + " is hemi-octahedrally encoded: " +
+                             channelName(layout.x.channel) + " and " + channelName(layout.y.channel) +
+                             " hold x + y and x - y of (x, y, z) / (|x| + |y| + z), as the slopes of the map show, and "
+                             "glTF does not have this encoding"};
         case MapContent::normals:
         case MapContent::height:
             break;
     }
-    return name + " is gray, not a normal map; it may be a height map";
+    return {.cause = name + " is gray, not a normal map; it may be a height map"};
 }
 
 RemedyCommand imageCommand(const char* verb, const NamedImage& image) {
@@ -270,17 +288,17 @@ Remedy greenRemedy(const NamedImage& image, const MapAnalysis& analysis) {
 std::optional<Finding> contentFinding(const NamedImage& image, const MapAnalysis& analysis, bool green_is_down) {
     if (analysis.content == MapContent::normals) return {};
     const Tally texels{.count = analysis.count, .total = analysis.total};
-    std::string message = messageOf(image, analysis);
+    FindingText text = textOf(image, analysis);
     if (isRotated(analysis, green_is_down))
-        message += ", and one of them is inverted, as in an image that was rotated without its vectors";
+        text.cause += ", and one of them is inverted, as in an image that was rotated without its vectors";
     else if (green_is_down)
-        message += "; y is inverted as well";
+        text.cause += "; y is inverted as well";
     if (analysis.layout.curve != MapCurve::none && analysis.content != MapContent::encoded)
-        message += std::string(
-                       "; the map was also stored as a color image: its vectors result only after the sRGB "
-                       "curve is ") +
-                   (analysis.layout.curve == MapCurve::srgb ? "removed" : "applied");
-    Finding finding = makeFinding(codeOf(analysis.content), Severity::warning, texels, "texels", std::move(message));
+        text.cause += std::string(
+                          "; the map was also stored as a color image: its vectors result only after the sRGB "
+                          "curve is ") +
+                      (analysis.layout.curve == MapCurve::srgb ? "removed" : "applied");
+    Finding finding = makeFinding(codeOf(analysis.content), Severity::warning, texels, "texels", std::move(text));
     setRemedy(finding, remedyOf(image, analysis, green_is_down));
     finding.confidence = texels.share();
     return finding;

@@ -84,8 +84,8 @@ void checkNormalValues(PrimitiveFacts& facts) {
     not_unit.finish(facts.surface.area);
     if (not_finite.count > 0) {
         facts.add(FindingCode::normalsNotFinite, Severity::error, not_finite, "vertices",
-                  "the surface has black spots: the normals of " + countText(not_finite, "vertices") +
-                      " are NaN or infinite");
+                  {.symptom = "the surface has black spots",
+                   .cause = "the normals of " + countText(not_finite, "vertices") + " are NaN or infinite"});
         setRemedy(facts.findings.back(), invalidNormalsRemedy(facts));
     }
     if (not_unit.count > 0) {
@@ -98,9 +98,9 @@ void checkNormalValues(PrimitiveFacts& facts) {
             lengths = " (from " + shortNumber(scales->min_length) + " to " + shortNumber(scales->max_length) + ")";
         facts.add(FindingCode::normalsNotUnit, zero_count != 0 || is_far ? Severity::error : Severity::warning,
                   not_unit, "vertices",
-                  "the shading may be too dark or too bright, and bumps too strong or too weak: the normals of " +
-                      countText(not_unit, "vertices") + " do not have unit length" + lengths +
-                      (zero_count != 0 ? "; " + std::to_string(zero_count) + " of them have length 0" : ""));
+                  {.symptom = "the shading may be too dark or too bright, and bumps too strong or too weak",
+                   .cause = "the normals of " + countText(not_unit, "vertices") + " do not have unit length" + lengths +
+                            (zero_count != 0 ? "; " + std::to_string(zero_count) + " of them have length 0" : "")});
         if (zero_count != 0) {
             // Normals of length 0 cannot be normalized.
             setRemedy(facts.findings.back(), invalidNormalsRemedy(facts));
@@ -204,8 +204,9 @@ void checkWinding(PrimitiveFacts& facts, const Directions& directions) {
                               : against.surface_share >= kSomeNormals ? Severity::warning
                                                                       : Severity::note;
     facts.add(FindingCode::normalsAgainstWinding, severity, against, "triangles",
-              "parts are lit from the wrong side: the normals of " + countText(against, "triangles") +
-                  " point to the back (" + shareText(against.surface_share) + " of the surface)");
+              {.symptom = "parts are lit from the wrong side",
+               .cause = "the normals of " + countText(against, "triangles") + " point to the back (" +
+                        shareText(against.surface_share) + " of the surface)"});
     if (areTrianglesFlipped(facts, directions, faces_against))
         setRemedy(facts.findings.back(), windingRemedy(!facts.primitive.tangents.empty()));
 }
@@ -238,11 +239,12 @@ void checkFarNormals(PrimitiveFacts& facts, const Directions& directions) {
     }
     far.finish(facts.surface.area);
     if (far.surface_share < kSomeFar) return;
-    facts.add(FindingCode::normalsFarFromFaces, Severity::note, far, "vertices",
-              "the shading may look bent: the normals of " + countText(far, "vertices") + " are more than " +
-                  decimalText(kFarDeg) + " and up to " + decimalText(far.worst_deg) +
-                  " degrees from the normal of every adjacent triangle (" + shareText(far.surface_share) +
-                  " of the surface)");
+    facts.add(
+        FindingCode::normalsFarFromFaces, Severity::note, far, "vertices",
+        {.symptom = "the shading may look bent",
+         .cause = "the normals of " + countText(far, "vertices") + " are more than " + decimalText(kFarDeg) +
+                  " and up to " + decimalText(far.worst_deg) + " degrees from the normal of every adjacent triangle (" +
+                  shareText(far.surface_share) + " of the surface)"});
 }
 
 }  // namespace
@@ -256,8 +258,8 @@ void checkPositions(PrimitiveFacts& facts) {
     }
     if (bad.count == 0) return;
     facts.add(FindingCode::positionsNotFinite, Severity::error, bad, "vertices",
-              "parts of the mesh are missing or distorted: the positions of " + countText(bad, "vertices") +
-                  " are NaN or infinite");
+              {.symptom = "parts of the mesh are missing or distorted",
+               .cause = "the positions of " + countText(bad, "vertices") + " are NaN or infinite"});
 }
 
 /// Reports random offsets of positions. Only positions are examined, because the stored normals may have been computed
@@ -267,8 +269,9 @@ void checkNoise(PrimitiveFacts& facts) {
     if (noise == 0) return;
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
     facts.add(FindingCode::positionsNoisy, Severity::note, all, "vertices",
-              "the shading may look noisy: the positions deviate from a smooth surface by " + stepText(noise) +
-                  " of an edge length (root mean square)");
+              {.symptom = "the shading may look noisy",
+               .cause = "the positions deviate from a smooth surface by " + stepText(noise) +
+                        " of an edge length (root mean square)"});
 }
 
 namespace {
@@ -310,15 +313,17 @@ void reportAttributeFaults(PrimitiveFacts& facts) {
         // Unsigned normals that have unit length are correct if no component should be negative.
         const bool may_be_right = was_read && facts.primitive.normal_scales == nullptr;
         facts.add(FindingCode::attributeUnreadable, may_be_right ? Severity::warning : Severity::error, all, "vertices",
-                  was_read ? "the surface may be lit from wrong directions: the elements of NORMAL " + fault.why
-                           : "the elements of " + name + " cannot be read: " + fault.why);
+                  was_read ? FindingText{.symptom = "the surface may be lit from wrong directions",
+                                         .cause = "the elements of NORMAL " + fault.why}
+                           : FindingText{.cause = "the elements of " + name + " cannot be read: " + fault.why});
         setRemedy(facts.findings.back(), attributeRemedy(facts.primitive, fault));
     }
     for (const SceneComponentFault& fault : facts.primitive.component_faults) {
         const Tally all{.count = fault.vertex_count, .total = fault.vertex_count};
         facts.add(FindingCode::attributeUnreadable, Severity::warning, all, "vertices",
-                  "some programs reject the file or read other values: the elements of " + fault.name + " are " +
-                      fault.found + ", but glTF allows only " + fault.allowed + "; tspace uses them unchanged");
+                  {.symptom = "some programs reject the file or read other values",
+                   .cause = "the elements of " + fault.name + " are " + fault.found + ", but glTF allows only " +
+                            fault.allowed + "; tspace uses them unchanged"});
         setRemedy(facts.findings.back(), {"Export the attribute again, as " + fault.allowed + "."});
     }
 }
@@ -328,8 +333,10 @@ void checkNormals(PrimitiveFacts& facts) {
     if (facts.mesh.normals.empty()) {
         Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
         facts.add(FindingCode::normalsMissing, Severity::note, all, "vertices",
-                  facts.is_gltf ? "the surface looks faceted: it has no normals, so glTF readers shade it flat"
-                                : "some or all faces have no normals, so tspace computes normals for them");
+                  facts.is_gltf
+                      ? FindingText{.symptom = "the surface looks faceted",
+                                    .cause = "the primitive has no normals, so glTF readers shade it flat"}
+                      : FindingText{.cause = "some or all faces have no normals, so tspace computes normals for them"});
         return;
     }
     const std::size_t first = facts.findings.size();
@@ -340,7 +347,7 @@ void checkNormals(PrimitiveFacts& facts) {
     if (!facts.primitive.is_unlit) return;
     for (Finding& finding : std::span(facts.findings).subspan(first)) {
         finding.severity = Severity::note;
-        finding.message += "; the material is unlit, so this is not visible";
+        extendCause(finding, "; the material is unlit, so this is not visible");
     }
 }
 
@@ -361,9 +368,11 @@ void checkUvsMissing(PrimitiveFacts& facts) {
         if (facts.primitive.findFault(setName(use.uv_set)) != nullptr) continue;
         Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
         facts.add(FindingCode::uvsMissing, Severity::error, all, "vertices",
-                  facts.is_gltf ? use.needed_by + " uses " + setName(use.uv_set) + ", which does not exist"
-                                : "the relief cannot be shown: the material has a normal map, but the faces have no "
-                                  "texture coordinates");
+                  facts.is_gltf
+                      ? FindingText{.cause = use.needed_by + " uses " + setName(use.uv_set) + ", which does not exist"}
+                      : FindingText{.symptom = "the relief cannot be shown",
+                                    .cause = "the material has a normal map, but the faces have no texture "
+                                             "coordinates"});
     }
 }
 
@@ -376,8 +385,8 @@ void checkFinite(PrimitiveFacts& facts) {
     bad.finish(facts.surface.area);
     if (bad.count == 0) return;
     facts.add(FindingCode::uvsNotFinite, onShare(Severity::error, bad.surface_share, facts.options), bad, "vertices",
-              "the texture looks black or garbled: " + setName(facts.reading.uv_set) + " is NaN or infinite at " +
-                  countText(bad, "vertices"));
+              {.symptom = "the texture looks black or garbled",
+               .cause = setName(facts.reading.uv_set) + " is NaN or infinite at " + countText(bad, "vertices")});
 }
 
 void checkDegenerate(PrimitiveFacts& facts) {
@@ -391,10 +400,11 @@ void checkDegenerate(PrimitiveFacts& facts) {
     degenerate.finish(facts.surface.area);
     if (degenerate.count == 0) return;
     const bool matters = !facts.primitive.uses.empty() && degenerate.surface_share >= kSomeUvs;
-    facts.add(FindingCode::uvsDegenerate, matters ? Severity::warning : Severity::note, degenerate, "triangles",
-              (matters ? "the relief may be lit from an arbitrary direction: " : "") +
-                  countText(degenerate, "triangles") + " have no area in " + setName(facts.reading.uv_set) + " (" +
-                  shareText(degenerate.surface_share) + " of the surface), so their tangent direction is undefined");
+    facts.add(
+        FindingCode::uvsDegenerate, matters ? Severity::warning : Severity::note, degenerate, "triangles",
+        {.symptom = matters ? "the relief may be lit from an arbitrary direction" : "",
+         .cause = countText(degenerate, "triangles") + " have no area in " + setName(facts.reading.uv_set) + " (" +
+                  shareText(degenerate.surface_share) + " of the surface), so their tangent direction is undefined"});
 }
 
 }  // namespace
@@ -455,19 +465,19 @@ void checkTextures(PrimitiveFacts& facts) {
         const bool of_two = uses[i].material != uses[0].material;
         facts.add(
             FindingCode::texturesDisagree, Severity::warning, different, "triangles",
-            textureText(uses[i], of_two) + " needs different tangents than " + textureText(uses[0], of_two) + " on " +
-                countText(different, "triangles") +
-                ", so one of the two is lit incorrectly; a vertex has only one tangent, and tspace computes it for " +
-                textureText(uses[0], of_two));
+            {.cause = textureText(uses[i], of_two) + " needs different tangents than " + textureText(uses[0], of_two) +
+                      " on " + countText(different, "triangles") +
+                      ", so one of the two is lit incorrectly; a vertex has only one tangent, and tspace computes it "
+                      "for " +
+                      textureText(uses[0], of_two)});
         facts.findings.back().place = uses[i].place;
     }
 }
 
 // Checks one primitive: selects the UVs that its tangents should follow, and runs all checks.
 
-void PrimitiveFacts::add(FindingCode code, Severity severity, const Tally& tally, const char* unit,
-                         std::string message) {
-    findings.push_back(makeFinding(code, severity, tally, unit, std::move(message)));
+void PrimitiveFacts::add(FindingCode code, Severity severity, const Tally& tally, const char* unit, FindingText text) {
+    findings.push_back(makeFinding(code, severity, tally, unit, std::move(text)));
 }
 
 namespace {
@@ -508,11 +518,11 @@ void checkRounding(PrimitiveFacts& facts) {
                       .worst_deg = turned.worst_deg,
                       .vertices = {turned.first}};
     facts.add(FindingCode::positionsRounded, Severity::warning, tally, "triangles",
-              "tangents and normals are unreliable: positions up to " + stepText(rounding.far) +
-                  " from the origin are rounded to steps of " + stepText(rounding.step) + ", which can rotate " +
-                  countText(tally, "triangles") + " by " + decimalText(facts.options.direction_deg) +
-                  " degrees or more (at most " + decimalText(turned.worst_deg) + " degrees; " +
-                  shareText(turned.share) + " of the surface); tangents there are not reported as errors");
+              {.cause = "tangents and normals are unreliable: positions up to " + stepText(rounding.far) +
+                        " from the origin are rounded to steps of " + stepText(rounding.step) + ", which can rotate " +
+                        countText(tally, "triangles") + " by " + decimalText(facts.options.direction_deg) +
+                        " degrees or more (at most " + decimalText(turned.worst_deg) + " degrees; " +
+                        shareText(turned.share) + " of the surface); tangents there are not reported as errors"});
     if (rounding.was_before) {
         setRemedy(facts.findings.back(),
                   "Use the model from before its positions were rounded, or round them to smaller steps, and keep the "
@@ -532,8 +542,9 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
         const bool has_positions = primitive.findFault("POSITION") == nullptr;
         if (has_positions && !primitive.tangents.empty() && primitive.uses.empty()) {
             Tally all{.count = 1, .total = 1};
-            facts.add(FindingCode::tangentsUnused, Severity::note, all, "primitives",
-                      "the primitive has tangents, but draws " + primitive.mode + ", and no material needs them");
+            facts.add(
+                FindingCode::tangentsUnused, Severity::note, all, "primitives",
+                {.cause = "the primitive has tangents, but draws " + primitive.mode + ", and no material needs them"});
         }
         return PrimitiveVerdict{.findings = std::move(facts.findings)};
     }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "commands/check/findings.h"
 #include "commands/check/frame_health.h"
 #include "commands/shared/uv_reading.h"
 #include "core/mesh/surface/surface.h"
@@ -48,7 +49,7 @@ struct PrimitiveFacts {
         if (faults.empty()) faults.resize(mesh.positions.size());
         faults[vertex] |= faultBit(code);
     }
-    void add(FindingCode code, Severity severity, const Tally& tally, const char* unit, std::string message);
+    void add(FindingCode code, Severity severity, const Tally& tally, const char* unit, FindingText text);
 };
 
 /// Findings of a primitive, and the vertices that have them.

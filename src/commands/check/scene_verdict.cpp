@@ -255,7 +255,7 @@ class Maps {
 
 void soften(Finding& finding, const std::string& why) {
     finding.severity = std::min(finding.severity, Severity::warning);
-    finding.message += why;
+    extendCause(finding, why);
 }
 
 void lowerSigns(PrimitiveJudgement& judgement, MapEffect maps) {
@@ -342,15 +342,15 @@ void applyImageVerdicts(const Scene& scene, const CheckOptions& options, ImageFi
         if (finding.code != FindingCode::greenFlipped) continue;
         if (options.convention.green == Green::down) {
             finding.severity = Severity::note;
-            finding.message += "; the requested convention expects this";
+            extendCause(finding, "; the requested convention expects this");
             setRemedy(finding, kNothingToDo);
             continue;
         }
         if (is_cancelled[images.images[i]]) setRemedy(finding, signsFirst());
         if (!is_needed[images.images[i]]) {
             finding.severity = Severity::note;
-            finding.message +=
-                "; but the tangent signs of its meshes are inverted too, so the two inversions cancel out";
+            extendCause(finding,
+                        "; but the tangent signs of its meshes are inverted too, so the two inversions cancel out");
             setRemedy(finding, bothOrNeither());
         }
         addConvention(options, finding);

@@ -53,6 +53,20 @@ TEST(CheckFile, StatesTheLocationAndTheObject) {
     EXPECT_EQ(report.error_count, 1u);
 }
 
+/// Programs show the effect of a finding, its cause and its remedy; they need not parse the message.
+TEST(CheckFile, StatesTheCauseWithoutTheSymptom) {
+    const Finding inverted = TestModel(false, true).check().findings.at(0);
+    EXPECT_EQ(inverted.message, "bumps look like dents along v: " + inverted.cause);
+    EXPECT_EQ(inverted.cause.substr(0, 22), "every sign is inverted");
+    // Clauses that are added when the whole file is known belong to the cause.
+    const CheckReport both = TestModel(true, true).check();
+    ASSERT_EQ(codes(both), (CodeCounts{"warning signsInverted", "note greenFlipped"}));
+    for (const Finding& finding : both.findings) {
+        EXPECT_TRUE(finding.message.ends_with(": " + finding.cause)) << finding.message;
+        EXPECT_TRUE(finding.cause.ends_with("the two inversions cancel out")) << finding.cause;
+    }
+}
+
 TEST(CheckFile, FindsANormalMapWhoseGreenPointsDown) {
     const CheckReport report = TestModel(true).check();
     ASSERT_EQ(codes(report), CodeCounts{"warning greenFlipped"});

@@ -125,7 +125,7 @@ export class FindingsView {
       isOne ? firstVertices(first) : this.#steps(findings));
     const button = el("button", { class: `finding ${severity}`, type: "button", "aria-expanded": "false", "data-code": code },
       el("span", { class: "effect" }, first.effect),
-      el("span", { class: "message" }, isOne ? causeOf(first) : first.summary),
+      el("span", { class: "message" }, isOne ? first.cause : first.summary),
       el("span", { class: "quiet" }, [isOne ? placeOf(first) : `${plural(findings.length, "location")}, the first: ${placeOf(first)}`, sure].filter(Boolean).join("; ")),
       el("span", { class: "code" }, isOne && first.place !== "" ? `${code} ${first.place}` : code));
     button.addEventListener("click", () => this.#toggle(button, details, findings));
@@ -151,7 +151,7 @@ export class FindingsView {
     const go = (step: number) => {
       at = (at + step + (at < 0 && step < 0 ? 1 : 0) + findings.length) % findings.length;
       const finding = findings[at];
-      replaceChildren(text, el("strong", {}, `${at + 1} of ${findings.length}: `), `${placeOf(finding)}: ${finding.message}`);
+      replaceChildren(text, el("strong", {}, `${at + 1} of ${findings.length}: `), `${placeOf(finding)}: ${finding.cause}`);
       this.choices.choose([finding], true);
     };
     const button = (name: string, step: number) => el("button", { type: "button", class: "small", onclick: () => go(step) }, name);
@@ -171,10 +171,6 @@ function mapText({ width, height, content, green, greenConfidence }: NonNullable
   const direction = greens[green] ? `${greens[green]} (${Math.round(100 * greenConfidence)} % confidence, if red points right)` : "The relief does not show in which direction green points";
   return `${width} x ${height} texels: ${contents[content] ?? content}.${content === "picture" || content === "height" || content === "constant" ? "" : ` ${direction}.`}`;
 }
-
-/** Leading clause of messages that start with the symptom, which the effect of the finding already describes. */
-const kSymptom = /^(bumps|the relief|the shading|the surface (has|looks)|the texture looks|the whole model is lit|parts (of the mesh )?are|triangles have dark spots|(a seam|an edge) is visible)\b[^:]*: /;
-const causeOf = ({ message }: Finding): string => message.replace(kSymptom, "");
 
 const firstVertices = ({ vertices }: Finding): HTMLElement | false => vertices.length > 0 && el("p", { class: "quiet" }, `First at vertices ${vertices.join(", ")}.`);
 

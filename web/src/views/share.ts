@@ -22,9 +22,9 @@ export function reportAs(kind: Kind, name: string, { inspect, check, identify }:
   lines.push(isMarkdown ? `### ${name}` : name, "");
   if (report) {
     lines.push(`${plural(report.counts.error, "error")}, ${plural(report.counts.warning, "warning")}, ${plural(report.counts.note, "note")}. tspace ${__VERSION__}, ${today()}.`, "");
-    for (const { severity, code, effect, message, remedy, place } of report.findings) {
-      lines.push(isMarkdown ? `- **${severity}** \`${code}\` at \`${place || "the file"}\`: ${effect} ${message}` : `${severity.padEnd(8)} ${code} at ${place || "the file"}`);
-      if (!isMarkdown) lines.push(`         ${effect} ${message}`);
+    for (const { severity, code, effect, cause, remedy, place } of report.findings) {
+      lines.push(isMarkdown ? `- **${severity}** \`${code}\` at \`${place || "the file"}\`: ${effect} Cause: ${cause}.` : `${severity.padEnd(8)} ${code} at ${place || "the file"}`);
+      if (!isMarkdown) lines.push(`         ${effect} Cause: ${cause}.`);
       lines.push(isMarkdown ? `  - fix: ${remedy}` : `         fix: ${remedy}`);
     }
     if (report.findings.length === 0) lines.push("No errors were found.");

@@ -130,8 +130,10 @@ class Finding:
     summary: str
     #: The visible symptom, in a sentence that is the same for all findings of the code.
     effect: str
-    #: Human-readable summary in one sentence.
+    #: Human-readable summary in one sentence: the symptom, a colon and "cause", or only "cause".
     message: str
+    #: What is wrong with the data, with figures: "message" without the symptom, which "effect" describes.
+    cause: str
     #: Human-readable fix.
     remedy: str
     #: View of "tspace render --show" that makes the fault visible; empty: none.
