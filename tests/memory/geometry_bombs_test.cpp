@@ -122,6 +122,32 @@ TEST(MemoryCeiling, HoldsForAThousandPrimitivesThatShareVerticesAndTurnThem) {
     expectBounded(folder, builder);
 }
 
+/// The results of many small primitives must not fragment the heap that all threads share.
+TEST(MemoryCeiling, HoldsForThousandsOfSmallPrimitivesAndManyThreads) {
+    const TempFolder folder;
+    GltfBuilder builder;
+    const Sheet sheet = addSheet(builder, 20);
+    builder.json()["materials"] = Json::parse(R"([{"normalTexture": {"index": 0}}])");
+    builder.json()["textures"] = Json::array({Json::object()});
+    for (int i = 0; i < 3000; ++i) {
+        // Accessors of their own, so that no result is shared.
+        Json attributes = Json::object();
+        for (const char* name : {"POSITION", "TEXCOORD_0"}) {
+            Json accessor = builder.json()["accessors"][sheet.attributes[name].get<std::size_t>()];
+            builder.json()["accessors"].push_back(std::move(accessor));
+            attributes[name] = builder.json()["accessors"].size() - 1;
+        }
+        Json& primitive = builder.addPrimitive(attributes);
+        primitive["indices"] = sheet.indices;
+        primitive["material"] = 0;
+    }
+    const std::string path = folder.write("model.glb", std::span<const std::uint8_t>(builder.glb()));
+    const std::uint64_t ceiling = test::kCeilingRatio * std::filesystem::file_size(path) + test::kCeilingBase;
+    const test::MeasuredRun run = test::runMeasured({"check", "--threads", "8", path}, folder.path("messages"));
+    EXPECT_LE(run.exit_code, 1) << folder.read("messages");
+    EXPECT_LE(run.peak_bytes, ceiling);
+}
+
 TEST(MemoryCeiling, HoldsForAccessorsThatOverlap) {
     const TempFolder folder;
     GltfBuilder builder;

@@ -39,12 +39,14 @@ void keepFreedMemory() {
 #endif
 }
 
-/// Makes the allocator return freed blocks of 64 KB and more to the system, and use one heap for all threads. It is
+/// Makes the allocator return freed blocks of 16 KB and more to the system, and use one heap for all threads. It is
 /// used for commands that keep small results between large blocks: these results would fragment the heaps, and files
-/// with many primitives would need a multiple of the memory.
+/// with many primitives would need a multiple of the memory. With 64 KB, checking 3,000 primitives of 400 vertices with
+/// 8 threads took 118 MB instead of 51 MB. Linux limits the mappings of a process to 65,530, so half of them are used.
 void returnFreedMemory() {
 #ifdef __GLIBC__
-    mallopt(M_MMAP_THRESHOLD, 64 << 10);
+    mallopt(M_MMAP_THRESHOLD, 16 << 10);
+    mallopt(M_MMAP_MAX, 32 << 10);
     mallopt(M_ARENA_MAX, 1);
 #endif
 }
