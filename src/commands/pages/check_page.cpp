@@ -166,9 +166,9 @@ std::string figuresOf(const Finding& finding, const FindingPicture& picture) {
     if (picture.before.empty())
         return picture.why_no_after.empty()
                    ? ""
-                   : noFigureHtml(
-                         "No pictures: " + picture.command + " changes nothing that is visible in a picture" +
-                         (concernsTargets(finding) ? " of the base mesh; the fault appears when it deforms." : "."));
+                   : noFigureHtml("No pictures: " + picture.command + " changes nothing that is visible in a picture" +
+                                  (concernsTargets(finding) ? " of the base mesh; the fault appears when it deforms."
+                                                            : " of this primitive."));
     const std::string command = "after " + picture.command;
     std::string figures = figureHtml(picture.before, kPlaceWidth, kPlaceHeight,
                                      picture.is_clay ? "as in the file, without base color" : "as in the file");

@@ -70,13 +70,39 @@ DVec3 pixelNormal(const RgbImage& image, std::size_t pixel) {
     return {component(0), component(1), component(2)};
 }
 
+/// Returns for each pixel whether one of the sides shows the primitive there. Other primitives may differ too, because
+/// of other faults.
+std::vector<bool> pixelsOfPrimitive(const Side& before, const Side& after, const PlaceView& view,
+                                    const PictureSize& size) {
+    const std::size_t count = std::size_t{size.width} * size.height;
+    if (view.is_alone) return std::vector<bool>(count, true);
+    std::vector<bool> shown(count, false);
+    for (const Side* side : {&before, &after}) {
+        WorkLimit work_limit(std::uint64_t{1} << 30);
+        const VisibleTriangles visible(side->model.meshes(), view.camera(size), size.width * size.samples,
+                                       size.height * size.samples, work_limit);
+        // A primitive that several nodes draw has one surface.
+        const std::span<const ShownSurface* const> surfaces = side->model.surfaces();
+        for (std::uint32_t y = 0; y < size.height * size.samples; ++y) {
+            const std::span<const std::uint32_t> row = visible.row(y);
+            for (std::size_t x = 0; x < row.size(); ++x) {
+                if (row[x] == VisibleTriangles::kNone) continue;
+                if (surfaces[visible.placeOf(row[x]).mesh] == surfaces[side->number])
+                    shown[std::size_t{y / size.samples} * size.width + x / size.samples] = true;
+            }
+        }
+    }
+    return shown;
+}
+
 /// A camera and a light, and the mean difference of the two pictures, from 0 to 1. Pixels that show no surface after
 /// the fix are not counted: a surface whose winding was fixed is not drawn from behind.
 struct Trial {
     PlaceView view = {};
     DVec3 to_light = {};
     double difference = 0;
-    std::size_t pixel = 0;  ///< pixel of the largest difference, see densestPixel
+    double framed_difference = 0;  ///< mean difference of the pixels around the location
+    std::size_t pixel = 0;         ///< pixel of the largest difference, see densestPixel
 };
 
 class PairSearch {
@@ -87,7 +113,8 @@ class PairSearch {
         const RgbImage a = before_.draw(RenderShow::mapped, view, kTrial, {0, 0, 1}, before_.model.surfaces()),
                        b = after_.draw(RenderShow::mapped, view, kTrial, {0, 0, 1}, after_.model.surfaces());
         const Camera camera = view.camera(kTrial);
-        const std::size_t pixels = std::size_t{kTrial.width} * kTrial.height;
+        const std::vector<bool> shown = pixelsOfPrimitive(before_, after_, view, kTrial);
+        const std::size_t pixels = shown.size();
         const std::array<std::uint8_t, 3> background{storedByte(kBackground.x), storedByte(kBackground.y),
                                                      storedByte(kBackground.z)};
         Trial best{.view = view, .to_light = ringLight(camera, 0)};
@@ -95,7 +122,7 @@ class PairSearch {
             const DVec3 light = ringLight(camera, i);
             std::vector<double> differences(pixels, 0.0);
             for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-                if (std::equal(&a.rgb[3 * pixel], &a.rgb[3 * pixel] + 3, &b.rgb[3 * pixel])) continue;
+                if (!shown[pixel] || std::equal(&a.rgb[3 * pixel], &a.rgb[3 * pixel] + 3, &b.rgb[3 * pixel])) continue;
                 if (std::equal(background.begin(), background.end(), &b.rgb[3 * pixel])) continue;
                 differences[pixel] = std::fabs(std::max(0.0, dot(pixelNormal(a, pixel), light)) -
                                                std::max(0.0, dot(pixelNormal(b, pixel), light)));
@@ -105,6 +132,7 @@ class PairSearch {
             if (!(mean > best.difference)) continue;
             best.to_light = light;
             best.difference = mean;
+            best.framed_difference = framedDifference(differences, camera, view.points);
             best.pixel = densestPixel(differences);
         }
         return best;
@@ -122,6 +150,25 @@ class PairSearch {
     }
 
   private:
+    /// Returns the mean of the pixels around a location.
+    static double framedDifference(std::span<const double> differences, const Camera& camera,
+                                   const PlacePoints& place) {
+        const std::optional<PictureBox> box = boxAround(camera, place, kTrial.samples);
+        if (!box) return 0;
+        constexpr double kBeside = 1;
+        double sum = 0;
+        std::size_t count = 0;
+        for (std::uint32_t y = 0; y < kTrial.height; ++y) {
+            for (std::uint32_t x = 0; x < kTrial.width; ++x) {
+                if (x + 1 < box->left - kBeside || x > box->right + kBeside) continue;
+                if (y + 1 < box->top - kBeside || y > box->bottom + kBeside) continue;
+                sum += differences[std::size_t{y} * kTrial.width + x];
+                ++count;
+            }
+        }
+        return count == 0 ? 0 : sum / static_cast<double>(count);
+    }
+
     /// Finds the block of pixels with the largest sum, and returns the pixel with the largest difference in it.
     static std::size_t densestPixel(std::span<const double> differences) {
         constexpr std::uint32_t kBlock = 10;
@@ -202,6 +249,9 @@ Trial bestTrial(const Side& before, const Side& after, std::span<const std::size
             if (trial.difference > best.difference) best = trial;
         }
     }
+    // A frame around a location where nothing differs would mislead.
+    constexpr double kMinFramed = 0.5;
+    place.view.is_place = place.framed_difference >= kMinFramed * place.difference;
     // A fault that is clearly visible on the whole surface is shown there, because the model is recognizable.
     constexpr double kPlainDifference = 0.08;
     const bool is_plain = whole_difference > kPlainDifference;
@@ -224,20 +274,27 @@ std::uint64_t brightnessDifference(const RgbImage& a, const RgbImage& b, std::si
 
 struct Compared {
     RgbImage before = {}, after = {};
+    std::vector<int> difference =
+        {};                 ///< largest difference of any channel of each pixel of the primitive, otherwise 0
     std::uint64_t sum = 0;  ///< sum of brightness differences
     std::size_t seen_count = 0;
     int most = 0;
 };
 
-Compared comparedSides(const Side& before, const Side& after, const Trial& trial, bool is_clay) {
+/// Draws both sides, and compares the pixels for which `shown` is true.
+Compared comparedSides(const Side& before, const Side& after, const Trial& trial, const std::vector<bool>& shown,
+                       bool is_clay) {
     const auto drawn = [&](const Side& side) {
         if (!is_clay) return side.draw(RenderShow::lit, trial.view, kWhole, trial.to_light, side.model.surfaces());
         const Clay clay(side.model.surfaces());
         return side.draw(RenderShow::lit, trial.view, kWhole, trial.to_light, clay.surfaces());
     };
     Compared result{.before = drawn(before), .after = drawn(after)};
-    for (std::size_t pixel = 0; 3 * pixel < result.before.rgb.size(); ++pixel) {
+    result.difference.resize(shown.size());
+    for (std::size_t pixel = 0; pixel < shown.size(); ++pixel) {
+        if (!shown[pixel]) continue;
         const int difference = largestDifference(result.before, result.after, pixel);
+        result.difference[pixel] = difference;
         result.sum += brightnessDifference(result.before, result.after, pixel);
         result.seen_count += difference >= kSeenStep;
         result.most = std::max(result.most, difference);
@@ -266,7 +323,8 @@ PicturePair drawPair(const PicturedPrimitive& before, std::span<const std::size_
     std::sort(held.begin(), held.end());
     const Trial trial = bestTrial(*a, *b, held);
     if (!(trial.difference > 0)) return pair;
-    Compared shown = comparedSides(*a, *b, trial, false), clay = comparedSides(*a, *b, trial, true);
+    const std::vector<bool> pixels = pixelsOfPrimitive(*a, *b, trial.view, kWhole);
+    Compared shown = comparedSides(*a, *b, trial, pixels, false), clay = comparedSides(*a, *b, trial, pixels, true);
     pair.is_clay = static_cast<double>(shown.sum) < kHidden * static_cast<double>(clay.sum);
     if (pair.is_clay) shown = std::move(clay);
     pair.differing_share = static_cast<double>(shown.seen_count) /
@@ -276,7 +334,7 @@ PicturePair drawPair(const PicturedPrimitive& before, std::span<const std::size_
     RgbImage difference{.width = kWhole.width, .height = kWhole.height};
     difference.rgb.resize(shown.before.rgb.size());
     for (std::size_t pixel = 0; 3 * pixel < difference.rgb.size(); ++pixel) {
-        const int value = static_cast<int>(pair.gain) * largestDifference(shown.before, shown.after, pixel);
+        const int value = static_cast<int>(pair.gain) * shown.difference[pixel];
         std::fill_n(&difference.rgb[3 * pixel], 3, static_cast<std::uint8_t>(value));
     }
     if (trial.view.is_place) {

@@ -14,9 +14,10 @@ namespace tspace {
 /// PNGs of equal size. Empty if no camera and light shows a difference.
 struct PicturePair {
     std::vector<std::uint8_t> before = {}, after = {};
-    std::vector<std::uint8_t> difference = {};  ///< grayscale: the largest difference of any channel, times `gain`
+    /// grayscale: the largest difference of any channel, times `gain`; black where neither side shows the primitive
+    std::vector<std::uint8_t> difference = {};
     unsigned gain = 1;
-    double differing_share = 0;  ///< share of the pixels that differ
+    double differing_share = 0;  ///< share of the pixels that show the primitive and differ
     bool is_clay = false;        ///< base colors are omitted, because they would hide the difference
 };
 
@@ -30,7 +31,8 @@ struct PicturedPrimitive {
 /// the primitive before the change, cameras from six sides of the whole primitive, and cameras above the location with
 /// the largest difference, each with lights from all directions. A view of `triangles` is chosen if it shows at least
 /// half of the largest difference, unless the whole primitive shows a clear difference. In this view, a frame marks the
-/// triangles. The bytes are the same on every machine. Throws FileError.
+/// triangles if the pixels around them differ by at least half of the mean difference. Differences of other primitives
+/// are not counted. The bytes are the same on every machine. Throws FileError.
 PicturePair drawPair(const PicturedPrimitive& before, std::span<const std::size_t> triangles,
                      const PicturedPrimitive& after);
 

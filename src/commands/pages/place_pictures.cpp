@@ -118,18 +118,25 @@ RgbImage drawView(RenderShow show, std::span<const DrawnMesh> meshes, std::span<
         .image;
 }
 
-void drawFrame(RgbImage& image, const Camera& camera, const PlacePoints& place) {
-    constexpr double kBeside = 4, kMinSide = 14, kMaxPart = 0.9;
-    double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL;
+std::optional<PictureBox> boxAround(const Camera& camera, const PlacePoints& place, std::uint32_t samples) {
+    PictureBox box{.left = HUGE_VAL, .right = -HUGE_VAL, .top = HUGE_VAL, .bottom = -HUGE_VAL};
     for (const DVec3& point : place.points) {
         const SeenPoint seen = camera.see(point);
-        if (!(seen.w > camera.minW())) return;
-        const double x = seen.x / seen.w / kPlaceSize.samples, y = seen.y / seen.w / kPlaceSize.samples;
-        left = std::min(left, x);
-        right = std::max(right, x);
-        top = std::min(top, y);
-        bottom = std::max(bottom, y);
+        if (!(seen.w > camera.minW())) return {};
+        const double x = seen.x / seen.w / samples, y = seen.y / seen.w / samples;
+        box.left = std::min(box.left, x);
+        box.right = std::max(box.right, x);
+        box.top = std::min(box.top, y);
+        box.bottom = std::max(box.bottom, y);
     }
+    return box;
+}
+
+void drawFrame(RgbImage& image, const Camera& camera, const PlacePoints& place) {
+    constexpr double kBeside = 4, kMinSide = 14, kMaxPart = 0.9;
+    const std::optional<PictureBox> box = boxAround(camera, place, kPlaceSize.samples);
+    if (!box) return;
+    auto [left, right, top, bottom] = *box;
     const double wide = std::max(0.0, kMinSide - (right - left)) / 2 + kBeside,
                  high = std::max(0.0, kMinSide - (bottom - top)) / 2 + kBeside;
     left = std::floor(std::clamp(left - wide, 0.0, image.width - 1.0));

@@ -74,6 +74,15 @@ std::optional<std::size_t> meshOf(const ModelPicture& model, std::size_t primiti
 RgbImage drawView(RenderShow show, std::span<const DrawnMesh> meshes, std::span<const ShownSurface* const> surfaces,
                   std::size_t mesh, const PlaceView& view, const PictureSize& size, const DVec3& to_light);
 
+/// A rectangle of a picture, in pixels.
+struct PictureBox {
+    double left = 0, right = 0, top = 0, bottom = 0;
+};
+
+/// Returns the box around a location in a picture, which may extend beyond the picture, or nothing if a part of it is
+/// behind the camera. `camera`: camera for `samples` samples per pixel.
+std::optional<PictureBox> boxAround(const Camera& camera, const PlacePoints& place, std::uint32_t samples);
+
 /// Draws a rectangle around a location into a picture of kPlaceWidth by kPlaceHeight pixels, with a margin so that it
 /// covers no part of the location. Draws nothing if the location fills the picture. `camera`: camera for two samples
 /// per pixel.

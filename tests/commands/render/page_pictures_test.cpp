@@ -160,6 +160,27 @@ TEST(FindingPictures, AreOmittedIfNothingIsVisible) {
     EXPECT_TRUE(same.before.empty() && same.after.empty() && same.difference.empty());
 }
 
+TEST(FindingPictures, CountOnlyDifferencesOfTheirPrimitive) {
+    // Two adjacent squares with inverted signs: one without relief, where nothing is visible, and one with relief.
+    GltfBuilder builder = turnedSquare(0, -1).build();
+    SquareModel other = turnedSquare(0, -1);
+    for (std::size_t i = 0; i < other.positions.size(); i += 3) other.positions[i] += 2;
+    Json& primitive = builder.addPrimitive({{"POSITION", builder.addFloats(other.positions, 3)},
+                                            {"NORMAL", builder.addFloats(other.normals, 3)},
+                                            {"TANGENT", builder.addFloats(other.tangents, 4)},
+                                            {"TEXCOORD_0", builder.addFloats(other.uvs, 2)}});
+    primitive["indices"] = builder.addAccessor(other.indices, 5125, "SCALAR", other.indices.size());
+    primitive["material"] = 1;
+    builder.json()["materials"] = Json::parse("[{}, {}]");
+    builder.json()["materials"][0]["normalTexture"] = {{"index", addTexture(builder, plainImage(128, 128, 255))}};
+    builder.json()["materials"][1]["normalTexture"] = {{"index", addTexture(builder, plainImage(200, 90, 200))}};
+    const Bytes file = builder.glb();
+    EXPECT_TRUE(pictureOf(file, findingAt(FindingCode::signsInverted, {1, 2})).before.empty());
+    Finding with_relief = findingAt(FindingCode::signsInverted, {0, 3});
+    with_relief.primitive = 1;
+    EXPECT_FALSE(pictureOf(file, with_relief).before.empty());
+}
+
 TEST(FindingPictures, OmitColorsThatHideTheDifference) {
     // Colors that hide differences: one that is nearly black, and blue, whose brightness people hardly see.
     for (const auto& color : {Json{0.004, 0.004, 0.004, 1}, Json{0, 0, 1, 1}}) {
