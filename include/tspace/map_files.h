@@ -269,8 +269,8 @@ enum class TextureFormat : std::uint32_t {
 
 enum class TextureQuality : std::uint32_t {
     fast = 0,  ///< minimizes the error after filtering, in two rounds
-    best = 1,  ///< three rounds, and more palettes: about 1 % less error, 2.5 times as slow
-    quick = 2  ///< fits each channel of a block independently: about a fifth more error, in a quarter of the time
+    best = 1,  ///< three rounds, and more palettes: up to 3 % less error (ASTC: 33 %), 2.1 to 2.3 times as slow
+    quick = 2  ///< fits each channel of a block independently: 10 to 75 % more error, in 35 to 60 % of the time
 };
 
 struct CompressMapFileOptions {

@@ -46,9 +46,9 @@ class RangeEvidence {
         if (negative_ == 0 && stored >= kMax && moved <= kFew && (!has_z_ || pointsUp()))
             return "the floats of the image are " + lengths() + " as stored, but not if decoded as 2c - 1" + read;
         if (negative >= kSome && stored >= moved)
-            return "floats of " + std::to_string(negative_) + " of " + std::to_string(count_) + " texels are below 0" +
-                   read + ", but few are " + lengths() +
-                   ", as stored or decoded as 2c - 1; check that the image is a normal map";
+            return "values of " + std::to_string(negative_) + " of " + std::to_string(count_) +
+                   " texels are below 0, so the image was read as vectors from -1 to 1; but few texels are " +
+                   lengths() + ", either as stored or after 2c - 1: check that the image is a normal map";
         if (is_vector && moved < kHalf) return "its alpha is below 0 in places, like x or y of a vector" + read;
         return {};
     }

@@ -123,8 +123,9 @@ export interface GenerateFileOptions {
    */
   noImages?: boolean;
   /**
-   * Texture compression of normal maps. The only value is keep: images are not changed, including KTX2 and DDS; normal
-   * maps that another option rewrites become PNG. To compress maps for engines, use tspace compress-map. Default: keep.
+   * Texture compression of normal maps. keep, the only value: images keep their format (KTX2 and DDS too), except that
+   * normal maps rewritten by another option become PNG. To compress maps for engines, use tspace compress-map. Default:
+   * keep.
    */
   compressMaps?: "keep";
   /**

@@ -334,9 +334,9 @@ void bakeTiles(FileBaking& state, const LowModel::Image& image, const std::strin
         std::uint64_t outside = 0;
         LowPart part = bakedPart(state, image, outside);
         if (const std::size_t count = beyondEdges(state, image, part))
-            state.report.warnings.push_back(std::to_string(count) + " triangles extend beyond the texture of " +
-                                            nameOf(image) +
-                                            ", whose wrap mode is clamp, so they show its edge texels there");
+            state.report.warnings.push_back(report::counted(count, "triangle") + (count == 1 ? " extends" : " extend") +
+                                            " beyond the texture of " + nameOf(image) +
+                                            ", whose wrap mode is clamp, so its edge texels show there");
         addOtherImages(part);
         bakeImage(state, image, suffix, 0, part, outside);
         return;
@@ -358,8 +358,7 @@ void bakeTiles(FileBaking& state, const LowModel::Image& image, const std::strin
         }
     }
     if (outside > 0)
-        state.report.warnings.push_back(std::to_string(outside) +
-                                        " triangles are outside all UDIM tiles and were ignored");
+        state.report.warnings.push_back("ignored " + report::counted(outside, "triangle") + " outside all UDIM tiles");
     if (tiles.empty()) failFile(ErrorCode::missingAttribute, "the UVs of the low poly are outside all UDIM tiles");
     for (auto& [tile, part] : tiles) {
         for (std::size_t i = 0; i < image.part.triangleCount(); ++i) {

@@ -17,6 +17,7 @@
 #include "commands/bake/match_meshes.h"
 #include "commands/generate/generate_model.h"
 #include "commands/shared/map_image_file.h"
+#include "commands/shared/report.h"
 #include "commands/shared/uv_reading.h"
 #include "core/base/numbers.h"
 #include "core/base/vec_math.h"
@@ -212,15 +213,15 @@ LowModel lowModel(const DrawnScene& drawn, const DrawnScene* cage, const MeshMat
                  without_uvs > 0 ? "the low poly has no UVs" : "the low poly has no triangles");
     }
     if (without_uvs > 0)
-        model.warnings.push_back(std::to_string(without_uvs) +
-                                 " primitives of the low poly have no UVs and were ignored");
+        model.warnings.push_back("ignored " + report::counted(without_uvs, "primitive") +
+                                 " of the low poly without UVs");
     for (LowModel::Image& image : model.images) {
         if (match == nullptr) image.part.groups.clear();
     }
     return model;
 }
 
-/// Fails if the cage differs from the low poly in more than its positions.
+/// Fails unless the cage has as many primitives as the low poly, and each as many triangles.
 void checkCage(const Scene& low, const Scene& cage) {
     bool fits = low.primitives.size() == cage.primitives.size();
     for (std::size_t i = 0; fits && i < low.primitives.size(); ++i)

@@ -98,7 +98,7 @@ constexpr std::array<CodeTexts, kFindingCodeCount> kCodes{{
      "sign",
      "Signs differ between the corners of a triangle.",
      "Bumps flatten to a streak along the mirror line.",
-     "Split the vertices where mirrored and other triangles meet: {}.",
+     "Split the vertices where mirrored and unmirrored triangles meet: {}.",
      {"generate --repair"}},
     {"signsInverted",
      "sign",

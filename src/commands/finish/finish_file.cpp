@@ -463,8 +463,9 @@ std::vector<std::string> doneTo(const FinishedModel& model) {
         if (totals.normals_replaced != 0)
             text += ", replacing existing ones for " + std::to_string(totals.normals_replaced);
         if (hard_count != 0)
-            text += ", with hard edges above " + shortNumber(least) +
-                    (most > least ? " to " + shortNumber(most) : std::string()) + " degrees";
+            text += (most > least ? ", with crease angles from " + shortNumber(least) + " to "
+                                  : std::string(", with a crease angle of ")) +
+                    shortNumber(most) + " degrees";
         if (noise > 0) text += ", without the position noise (" + shortNumber(noise) + " of an edge length)";
         done.push_back(text);
     }

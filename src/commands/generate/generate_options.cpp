@@ -173,8 +173,9 @@ Option compressMapsOption() {
     };
     Option made = option(
         "--compress-maps", "HOW", take,
-        "Texture compression of normal maps. The only value is keep: images are not changed, including KTX2 and DDS; "
-        "normal maps that another option rewrites become PNG. To compress maps for engines, use tspace compress-map.");
+        "Texture compression of normal maps. keep, the only value: images keep their format (KTX2 and DDS too), except "
+        "that normal maps rewritten by another option become PNG. To compress maps for engines, use tspace "
+        "compress-map.");
     made.choices = {"keep"};
     made.default_text = "keep";
     return made;

@@ -30,12 +30,14 @@ void warnOfWinding(const GenerateOptions& options, GenerateReport& report) {
         vertices.add(primitive);
     }
     if (turned != 0) {
-        std::string text = std::to_string(turned) + " of " + counted(triangles, "triangle") +
-                           (turned == 1 ? " is" : " are") + " wound opposite to their neighbors";
+        std::string text =
+            std::to_string(turned) + " of " + counted(triangles, "triangle") +
+            (turned == 1 ? " is wound opposite to its neighbors" : " are wound opposite to their neighbors");
         if (vertices.after() > vertices.before())
             text += ", so vertices between them were split (" + std::to_string(vertices.before()) + " -> " +
                     std::to_string(vertices.after()) + ")";
-        if (!options.mend_winding) text += "; use --fix-winding to flip these triangles";
+        if (!options.mend_winding)
+            text += std::string("; use --fix-winding to flip ") + (turned == 1 ? "this triangle" : "these triangles");
         report.warnings.push_back(text);
     }
     if (two_sided != 0) {

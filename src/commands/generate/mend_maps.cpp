@@ -19,7 +19,7 @@ std::string formerContent(const MapAnalysis& analysis) {
         case MapContent::twoChannels:
             return "the map stored only x and y";
         case MapContent::unsignedZ:
-            return "blue stored z without a sign (0 to 1)";
+            return "blue stored z itself, from 0 to 1, instead of (z + 1) / 2";
         case MapContent::xInAlpha:
             return std::string("the map stored x in ") + channelName(analysis.layout.x.channel) + " and y in " +
                    channelName(analysis.layout.y.channel);

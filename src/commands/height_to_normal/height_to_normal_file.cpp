@@ -162,7 +162,8 @@ OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
                        ? std::string()
                        : std::string("must be a number greater than 0");
         },
-        "Width of a texel in the unit of the heights (meters for the terrain encodings). Not used with --mesh.");
+        "Width of a texel, in any unit; --strength has the same unit. Meters for the terrain encodings. Not used with "
+        "--mesh.");
     texel_size.default_text = std::to_string(1);
     add(list, "Map", texel_size);
     add(list, kInputAndOutput,

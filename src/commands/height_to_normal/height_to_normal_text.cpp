@@ -6,6 +6,14 @@
 #include "commands/shared/text.h"
 
 namespace tspace::report {
+namespace {
+
+/// Formats a length with its unit: "1 texel", "0.5 texels". The symbol "m" has no plural.
+std::string lengthText(const std::string& number, const std::string& unit) {
+    return number + " " + unit + (number == "1" || unit == "m" ? "" : "s");
+}
+
+}  // namespace
 
 std::string heightToNormalText(const Outcome<HeightToNormalFileReport>& outcome,
                                const HeightToNormalFileOptions& options) {
@@ -13,15 +21,17 @@ std::string heightToNormalText(const Outcome<HeightToNormalFileReport>& outcome,
     Table table;
     table.addRow({"image", fmt::format("{} x {}, {} bits per channel, from {}", done.width, done.height, done.bits,
                                        done.bits_before)});
-    const std::string unit = options.encoding == HeightEncoding::gray ? "units" : "m";
+    const std::string unit = options.encoding == HeightEncoding::gray ? "unit" : "m";
+    const std::string white = fmt::format("{:.4g}", options.strength);
     const std::string scale = options.encoding == HeightEncoding::gray
-                                  ? fmt::format("white is {:.4g} units high", options.strength)
+                                  ? "white is " + lengthText(white, "unit") + " high"
                                   : fmt::format("heights in meters, times {:.4g}", options.strength);
     if (options.mesh.empty() && options.texel_size == 1 && options.encoding == HeightEncoding::gray) {
-        table.addRow({"strength", fmt::format("white is {:.4g} texels high", options.strength)});
+        table.addRow({"strength", fmt::format("white is {} high", lengthText(white, "texel"))});
     } else {
-        table.addRow({"strength", fmt::format("{}; a texel is {:.3g} {} wide", scale, done.texels.texel_size,
-                                              options.mesh.empty() ? unit : "units")});
+        table.addRow({"strength", fmt::format("{}; a texel is {} wide", scale,
+                                              lengthText(fmt::format("{:.3g}", done.texels.texel_size),
+                                                         options.mesh.empty() ? unit : "unit"))});
     }
     if (!options.mesh.empty()) {
         table.addRow({"mesh", fmt::format("{}: {} in {}{}, covering {} texels", printable(options.mesh),

@@ -181,7 +181,7 @@ Option htmlOutput(const char* names, const char* value_name, std::string& target
     const auto take = [&target](const std::string& given) -> std::string {
         const std::string extension = lowerExtension(given);
         const bool is_page = extension == ".html" || extension == ".htm";
-        if (given.empty() || !(extension.empty() || is_page)) return "must end in .html";
+        if (given.empty() || !(extension.empty() || is_page)) return "must end in .html or .htm, or have no extension";
         target = given;
         return {};
     };

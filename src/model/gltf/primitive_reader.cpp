@@ -434,7 +434,9 @@ void warnOfScaledNormals(Document& document, std::span<const Primitive> primitiv
                    "from " + shortNumber(least) + " to " + shortNumber(most),
                std::string(". They were normalized for the computation, and the file keeps them unchanged (tspace "
                            "generate --repair writes unit normals") +
-                   (are_some_unsigned ? ", but keeps unsigned ones; --overwrite-normals replaces them)" : ")"),
+                   (are_some_unsigned ? ", except where normals are stored as unsigned integers; --overwrite-normals "
+                                        "replaces those too)"
+                                      : ")"),
                document.scaled_normals);
 }
 
@@ -454,7 +456,7 @@ void warnOfInvalidNormals(Document& document, std::span<const Primitive> primiti
     for (const auto& [normals, used] : used_of) count += used.size();
     if (count == 0) return;
     addWarning(document, std::string(kInvalidNormals) + ": " + verticesText(count) + named.text(),
-               ". The surface has no direction there, so frames and shading are arbitrary (tspace generate "
+               ". Frames and shading at vertices without a usable normal are arbitrary (tspace generate "
                "--overwrite-normals computes new normals)",
                document.invalid_normals);
 }

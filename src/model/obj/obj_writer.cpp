@@ -209,10 +209,10 @@ class MaterialNumbers {
             const Material& material = model.materials[i];
             const bool has_textures = material.base_color_texture.used() || material.normal_texture.used();
             if (bare_triangles[i] == 0 || !has_textures || isDefault(material)) continue;
-            warnings.push_back("the material '" + material.name + "' has textures, but " +
-                               std::to_string(bare_triangles[i]) +
-                               " triangles with this material have no texture coordinates; they were given the "
-                               "material without textures");
+            warnings.push_back(
+                "the material '" + material.name + "' has textures, but " + std::to_string(bare_triangles[i]) +
+                (bare_triangles[i] == 1 ? " triangle with this material has" : " triangles with this material have") +
+                " no texture coordinates; for such triangles, the output has a copy of the material without textures");
             if (has_uvs[i]) bare_numbers_[i] = add(material, nullptr);
         }
     }

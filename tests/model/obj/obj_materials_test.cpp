@@ -57,7 +57,7 @@ TEST(ObjMaterials, FacesWithoutTextureCoordinatesGetTheirMaterialWithoutTextures
     EXPECT_EQ(json["materials"][2]["alphaMode"], "BLEND");
     EXPECT_EQ(json["materials"][2]["pbrMetallicRoughness"]["roughnessFactor"],
               json["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"]);
-    EXPECT_TRUE(mentions(made.report.warnings, "'a' has textures, but 1 triangles"));
+    EXPECT_TRUE(mentions(made.report.warnings, "'a' has textures, but 1 triangle with"));
     EXPECT_TRUE(mentions(made.report.warnings, "'b' has textures, but 2 triangles"));
 }
 

@@ -433,7 +433,7 @@ Error checkPool(const PoolView& pool, std::span<const PrimitiveGeometry> primiti
         return {ErrorCode::countMismatch, "the pool must have as many UVs as positions"};
     }
     if (!pool.kept_tangents.empty() && (pool.kept_tangents.size() != count || pool.normals.empty())) {
-        return {ErrorCode::countMismatch, "the pool must have a normal and a kept tangent for each position"};
+        return {ErrorCode::countMismatch, "kept tangents require one normal and one tangent per position"};
     }
     return {ErrorCode::ok, {}};
 }
@@ -461,7 +461,7 @@ Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<con
     return frames;
 }
 
-/// The causes of splits are counted if a split adds more than one vertex per this many vertices.
+/// Winding faults are counted if splitting increases the number of vertices by more than 1 / kManySplit.
 constexpr std::size_t kManySplit = 20;
 
 void countFaults(const PoolView& pool, const PoolFrames& frames, float weld_distance, std::span<FramesReport> reports) {
