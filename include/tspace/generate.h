@@ -136,9 +136,10 @@ struct GenerateOptions {
         /// detected by checkFile. With flip_green, the new maps are inverted if needed.
         bool mend = false;
         /// Convert normal maps to the computed tangents, so that the shaded result is the same as with the old ones.
-        /// Missing tangents count as mikktspace, as in viewers. New maps are PNGs with the old bit depth; a map or a
-        /// material is copied if its primitives need different ones. glTF only, in glTF's convention, and not with
-        /// ExistingTangents::repair, TextureTransform::ignore or flip_green (invalidOption).
+        /// Primitives without tangents are assumed to have been shown with mikktspace tangents, as viewers compute
+        /// them. New maps are PNGs with the old bit depth; a map or a material is copied if its primitives need
+        /// different ones. glTF only, in glTF's convention, and not with ExistingTangents::repair,
+        /// TextureTransform::ignore or flip_green (invalidOption).
         bool convert = false;
         /// Read the pixels of normal maps if ExistingTangents::repair needs them. false: inverted signs are kept,
         /// because the green channel of the maps may also point down. Cannot be combined with flip_green, mend or

@@ -522,8 +522,8 @@ Vec3 idColor(std::uint32_t id);
 /// Estimates the additional peak memory of the layers (see bakeBytes), in bytes.
 std::uint64_t layerBytes(std::uint64_t high_triangles, const BakeOptions& options, const LayerOptions& layers);
 
-/// Bakes one image with layers. The same texels for any thread count. Time: one ray per texel, `ray_count` more for
-/// `ao` and `bent`, as many for `thickness`; 1 to 9 per texel for colors. Errors: those of bakeMap, invalidOption and
+/// Bakes one image with layers. The same texels for any thread count. Rays per texel: 1, plus `ray_count` for `ao` and
+/// `bent` together, `ray_count` for `thickness`, and 1 to 9 for colors. Errors: those of bakeMap, invalidOption and
 /// countMismatch.
 Result<BakedMaps> bakeMaps(const LowPoly& low, const HighPoly& high, const BakeOptions& options,
                            const LayerOptions& layers, const Execution& execution = {}, const Progress& progress = {});

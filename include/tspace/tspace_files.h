@@ -97,9 +97,10 @@ tspace_ErrorCode tspace_inspectBytes(const tspace_Model* model, const char* opti
 
 /* Reads a model and compares its tangents with those of mikktspace, angle, area, uniform, lengyel, flat and the
  * other methods of tspace that use UVs; mikktspace also on quads, if pairs of triangles explain clearly more. The
- * best method is the one with the most near corners. Among methods within 0.5 % of it, the smallest mean angle
- * decides if the difference exceeds rounding, otherwise the better known method (in this order). `fast` and `best`,
- * which only tspace has, must explain 5 % more than any other. Errors: those of tspace_generateFile for reading.
+ * best method is the one with the most corners whose tangents agree within the tolerance. Among methods within 0.5 %
+ * of it, the smallest mean angle decides if the difference exceeds rounding, otherwise the better known method (in
+ * this order). `fast` and `best`, which only tspace has, must explain 5 % more than any other. Errors: those of
+ * tspace_generateFile for reading.
  * Time: about that of generating with each method. Thread-safe; the same result for any number of threads.
  * In C: options of `tspace identify`, report tspace.identify/1. */
 tspace_ErrorCode tspace_identifyFile(const char* input, const char* options, tspace_Bytes* report,

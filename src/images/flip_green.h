@@ -13,8 +13,8 @@ std::uint64_t flipWorkBytes(ByteSpan bytes);
 /// time that flipping takes. Returns 0 for other formats, which are decoded completely in memory.
 std::uint64_t flipUnpackedBytes(ByteSpan bytes);
 
-/// Returns the format that flipping writes by default; sameAsInput for inputs that it can only write as PNG, or not at
-/// all.
+/// Returns the default output format of flipping; sameAsInput for formats that flipping cannot write (it then writes
+/// PNG or fails).
 ImageFileFormat fileFormat(ImageFormat input);
 
 /// Inverts green like flipGreen, without the memory check. Uses format and jpeg_quality of `options`.

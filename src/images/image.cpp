@@ -33,7 +33,7 @@ void appendMetadata(ByteSpan jpeg, std::vector<std::uint8_t>& out) {
 }  // namespace
 
 ImageClaim claimOfPng(ByteSpan bytes) {
-    constexpr std::size_t kWidthAt = 16, kHeightAt = 20;  // offsets in the header chunk, which is the first chunk
+    constexpr std::size_t kWidthAt = 16, kHeightAt = 20;  // offsets in the file; the header is its first chunk
     if (bytes.size() < kHeightAt + 4) return {};
     const auto number = [&](std::size_t at) {
         std::uint32_t value = 0;

@@ -103,9 +103,10 @@ pub struct NormalOptions<'a> {
     /// Denoising for meshes with noisy positions: scans, marching cubes of a noisy field. Vertices are not moved; at
     /// each vertex the normals of quadratic surfaces through two and three rings are blended with the normal of
     /// `best`, weighted by their expected errors. 0, the default: off. -1: by the measured noise; if there is none,
-    /// or it looks like shape (CAD, bevels, decimated meshes), results have the bits of 0. Above 0, up to 4: factor
-    /// of the measured noise, without that check; 3 suits noise that is smooth from vertex to vertex, which cannot
-    /// be distinguished from detail. Hard edges are preserved: no surface is fitted across them.
+    /// or it looks like shape (CAD, bevels, decimated meshes), results are bit-identical to those with 0. Above 0,
+    /// up to 4: factor of the measured noise, without that check; 3 suits noise that is smooth from vertex to
+    /// vertex, which cannot be distinguished from detail. Hard edges are preserved: no surface is fitted across
+    /// them.
     pub denoise: f32,
     /// With `weld_positions`: weld distance, in mesh units. Vertices whose positions differ by at most this in each
     /// coordinate are welded to the one with the lowest index. Useful for meshes that are closed only up to

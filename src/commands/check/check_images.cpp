@@ -321,7 +321,8 @@ std::string rectText(const TexelRect& rect) {
     return "columns " + range(rect.left, rect.right) + ", rows " + range(rect.top, rect.bottom);
 }
 
-/// Returns the part of the map that a finding names: the first part in which green points down.
+/// Returns the part of the map that a finding names: the first part whose verdict is `down` or `mixed`, otherwise the
+/// first part.
 const MapPart& partOf(const NormalMap& map) {
     for (const MapPart& part : map.parts) {
         if (part.test.verdict == GreenVerdict::down || part.test.verdict == GreenVerdict::mixed) return part;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kColors = 3, kAlpha = 3;
 
-/// Returns whether the values are those of a channel, except for compression errors.
+/// Returns whether `channel` equals valueOf(texel) at all texels, except for compression errors.
 template <class ValueOf>
 bool isCopyOf(std::span<const TexelBytes> texels, std::size_t channel, const ValueOf& valueOf) {
     constexpr double kOfDeviation = 0.15, kOfGentle = 0.5;  // compression errors are large compared with gentle relief

@@ -38,7 +38,7 @@ struct PrimitiveFacts {
     TangentView mesh = {};        ///< the mesh, with the UVs of `reading` if they determine the tangents
     Surface surface = {};         ///< surface of `mesh`
     std::vector<bool> used = {};  ///< vertices that triangles use
-    QuadReading quads = {};       ///< storage of the corners of `mesh` if its tangents were computed on quads
+    QuadReading quads = {};       ///< owns the corners that `mesh` refers to if its tangents were computed on quads
     std::vector<Finding> findings = {};
     std::vector<std::uint32_t> faults = {};    ///< faults of the tangents, see FrameHealth::faults; empty: none
     double wrong_sign_share = 0;               ///< see FrameHealth::wrong_sign_share

@@ -196,8 +196,8 @@ void weld(const WeldedVertices& welded, std::vector<PrimitiveGeometry>& geometri
 class NewMorphNormals {
   public:
     /// Replaces the target reader of `vertices`, so that it returns the new offsets. `vertices` and `geometries` must
-    /// outlive this object. `keeps_finite`: replaces only offsets that are NaN or infinite if the target has any usable
-    /// offset.
+    /// outlive this object. `keeps_finite`: in a target with at least one usable offset, replaces only offsets that are
+    /// NaN or infinite.
     NewMorphNormals(const std::vector<bool>& targets, bool keeps_finite, PoolView& vertices,
                     std::span<const PrimitiveGeometry> geometries)
         : targets_(targets), keeps_finite_(keeps_finite), turned_(vertices, geometries), made_(targets.size()) {

@@ -33,9 +33,9 @@ void reportProgress(const GenerateOptions& options, const char* what, std::uint6
     if (options.progress) options.progress(what, done, total);
 }
 
-/// Returns how many of the pools are computed together; at least one. Results need memory until they are stored in
-/// order, so slightly more than the working memory must be available, and twice as much for several pools. Fails with
-/// tooLarge if the first pool alone needs too much.
+/// Returns how many of the pools are computed together; at least one. Results occupy memory until they are stored in
+/// order: one pool needs 1.25 times its working memory, several pools twice the sum of theirs. Fails with tooLarge if
+/// the first pool alone needs too much.
 std::size_t countTogether(std::span<const PoolPlan> pools, const Document& document,
                           std::span<const Primitive> primitives, const Execution& execution) {
     document.memory->require(pools[0].workBytes() / 4 * 5, primitives[pools[0].primitives[0]].place());

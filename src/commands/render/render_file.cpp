@@ -43,7 +43,7 @@ bool showsTangents(RenderShow show) {
     return show == RenderShow::tangents || show == RenderShow::sign || show == RenderShow::error;
 }
 
-/// Pictures of one model: its surfaces with each choice of frames that the view needs.
+/// Draws one model. Contains one ModelPicture, or two for RenderShow::both (stored and computed frames).
 class ModelPictures {
   public:
     ModelPictures(const PosedScene& posed, ModelTextures* textures, const RenderOptions& options) : options_(options) {

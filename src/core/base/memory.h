@@ -127,8 +127,8 @@ class Buffer {
     std::size_t count_ = 0;
 };
 
-// Block of memory for the many small buffers of a short call, or for scratch memory in the memory of an output.
-// Requests that do not fit into the block are passed to the caller's allocator.
+// Block of memory for the many small buffers of a short call, or for scratch memory that is placed in the memory of an
+// output. Requests that do not fit into the block are passed to the caller's allocator.
 
 /// Allocator for the duration of a call: allocates from a block in order. Memory is reused if the most recent buffer is
 /// released first. Like every Allocator, it is used by the calling thread only.

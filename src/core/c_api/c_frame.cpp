@@ -74,8 +74,6 @@ void tspace_destroyArena(tspace_Arena* arena) noexcept { delete arena; }
 
 namespace {
 
-// C API: version, errors, mesh validation and conventions.
-
 // C API: operations on a single frame.
 
 // C and C++ structs have the same members in the same order, so values are converted bitwise.

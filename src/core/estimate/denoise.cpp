@@ -213,8 +213,9 @@ PositionNoise noiseOf(const MeshView& mesh, const Execution& execution, Parallel
 
 namespace {
 
-// Noise thresholds, in units of the mean edge. Above kRoughNoise, planes of fits are smoothed more; above kLoudNoise,
-// the normal of a single ring is too uncertain for comparisons.
+// Noise thresholds, in units of the mean edge. Above kRoughNoise, the normals that define the planes of the fits are
+// averaged in three passes instead of one; above kLoudNoise, the normal of a single ring is too uncertain for
+// comparisons.
 constexpr double kRoughNoise = 0.15, kLoudNoise = 0.12;
 constexpr int kBiasPasses = 8;
 // Measured noise variance of `best` normals, relative to area-weighted normals.

@@ -175,7 +175,8 @@ class NoiseScreen {
         return count == 0 ? 0 : medianOf(shares.begin(), shares.begin() + count);
     }
 
-    /// Returns the roughness, or nothing if the sample cannot decide.
+    /// Returns the roughness around the sampled edges, or nothing if they have more neighboring points than fit in
+    /// `points_`.
     std::optional<Roughness> roughnessAroundEdges() {
         double lengths = 0;
         points_.clear();

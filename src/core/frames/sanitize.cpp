@@ -119,7 +119,7 @@ struct FastValidityTest {
     static constexpr float kSquareTolerance = 9.9e-4f;  // below 2 * kUnitTolerance
     static constexpr float kSquareCosine = 0.99f;       // squared cosine of 5.7 degrees
     static constexpr float kSquareLean = 1e-13f;        // below kOrthogonalTolerance^2
-    // limits within which squares neither underflow nor overflow
+    // Limits of the squared length of N within which the products below neither underflow nor overflow.
     static constexpr float kLeast = 1e-20f, kMost = 1e20f;
 
     /// Tests four tangents at once; `w` contains their signs.

@@ -35,8 +35,7 @@ constexpr double kFillet = 1.3;
 // Bend, in radians, from which kKink and kFillet have full effect (bend: angle by which the longest edge would bend
 // with the curvature of the most bent edge). In fine meshes both misfits are small, and their ratio is random.
 constexpr double kBent = 1.25;
-// angle, in radians, by which the longest edge would bend with the curvature of the most bent edge, times the sine of
-// the angle between the two means
+// Bend (as for kBent) times the sine of the angle between the sharp and the robust normal.
 constexpr double kJump = 2.5;
 constexpr double kTurn = 0.8;     // twice the sine of half the angle between the sharp normals at an edge's ends
 constexpr double kSpread = 0.42;  // sine of the angle between the fitted normal and the robust mean

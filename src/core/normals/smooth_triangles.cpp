@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Sums of weighted face normals per point, computed with SIMD in blocks of triangles. No list of the corners around a
-// point is needed: if its mean vanishes, a corner's substitute depends on its own face. Ranges of points are summed,
-// finished and written one after the other, and fit into a cache if triangles are stored close together.
+// point is needed: where the mean of a point vanishes, the substitute normal of each corner depends only on the
+// corner's face. Ranges of points are summed, finished and written one after the other, and fit into a cache if
+// triangles are stored close together.
 // Based on: Thuermer & Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998.
 #include <algorithm>
 #include <atomic>

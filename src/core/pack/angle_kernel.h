@@ -50,8 +50,8 @@ inline Bases basesOf(const GridNormals& g) {
     return {{one + s * n.x * n.x * h, s * d, minus(s) * n.x}, {d, s + n.y * n.y * h, minus(n.y)}};
 }
 
-/// Returns T after a number of quarter turns (the lowest two bits of `quarters`), followed by `step` steps of a quarter
-/// turn.
+/// Returns T, rotated by `quarters` (lowest two bits) quarter turns and then by `step` of the grid.quarter steps of a
+/// quarter turn.
 inline Vectors tangentsAt(const AngleGrid& grid, const Bases& basis, Bits quarters, Floats step) {
     const Floats whole = broadcast(static_cast<float>(kAngleWarp) * static_cast<float>(grid.quarter));
     const Floats x = step, y = broadcast(static_cast<float>(grid.quarter)) - step;

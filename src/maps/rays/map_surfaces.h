@@ -33,7 +33,7 @@ struct PositionBox {
     [[nodiscard]] bool meets(const PositionBox& other, double margin) const;
 };
 
-/// Returns the value of chosenReach for meshes with these bounding boxes.
+/// Returns the default ray reach for meshes with these bounding boxes (see chosenReach).
 double reachBetween(const PositionBox& low, const PositionBox& high);
 
 /// Returns the likely reason why a high poly does not coincide with its low poly (a different unit or up axis) in one

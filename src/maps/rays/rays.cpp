@@ -178,7 +178,8 @@ struct Shot {
     }
 };
 
-/// Calls visit(query, triangle, valid) for each line of a filter call; setting `valid` to 0 rejects the triangle.
+/// Calls visit(query, triangle, valid) for each valid ray of an Embree filter call; setting `valid` to 0 rejects the
+/// triangle.
 template <class Visit>
 void forLines(const RTCFilterFunctionNArguments* arguments, const Visit& visit) {
     const auto& shot = *reinterpret_cast<const Shot*>(arguments->context);

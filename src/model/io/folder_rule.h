@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rule for the files that a model may reference: those in its folder and below. It applies to URIs of glTF and OBJ
-// (uri.h) and to names in other formats: tspace-import includes this header without linking the model wing.
+// (uri.h) and to names in other formats: tspace-import includes this header without linking the model library.
 #pragma once
 
 #include <algorithm>

@@ -111,16 +111,19 @@ struct QuadFit {
 Result<QuadFit> fitQuads(const MeshView& triangles, std::span<const Vec4> stored, const Execution& execution,
                          double tolerance_deg = 1, std::span<const Vec4> on_triangles = {});
 
-/// Computes mikktspace on these faces: one tangent per corner of the triangle list, with the raw sign.
+/// Computes mikktspace on these faces: one tangent per corner of the triangle list, with the raw sign
+/// (before the factor of a convention is applied).
 Result<std::vector<Vec4>> tangentsOnFaces(const MeshView& triangles, const QuadFaces& faces,
                                           const Execution& execution);
 
 // Faces for computing or comparing tangents: triangles, or their original quads.
 
-/// Returns the quads for the option `faces`; none (quad_count 0) means triangles. If tangents exist and fit clearly
-/// better to quads, returns these quads. Otherwise triangles are paired by shape if `faces` is `quads`; also if it is
-/// `automatic`, there are no tangents, Blender wrote the mesh, and most of its triangles have the edge pattern of
-/// Blender's quads.
+/// Returns the quads for the option `faces`; none (quad_count 0) means triangles. `triangles`: none. For the other
+/// values, if tangents exist and fit clearly better to quads: these quads. Otherwise:
+///
+/// `quads`      triangles paired by shape
+/// `automatic`  the same pairs if there are no tangents, Blender wrote the mesh, and most of its triangles have the
+///              edge pattern of Blender's quads; else none
 ///
 /// triangles    as required by fitQuads
 /// stored       one tangent per vertex, or empty

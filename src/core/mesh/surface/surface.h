@@ -85,9 +85,9 @@ struct PositionRounding {
 /// Estimates the rounding of positions. `stored_step`: step of an integer format, in position units; 0 for floats. The
 /// step of floats is their spacing at the largest coordinates, or coarser if all positions are multiples of a larger
 /// step. Axes along which terrain has a regular raster are ignored. Near the origin, multiples of a step count as
-/// rounding only if the UVs indicate it (without UVs: never). `corner_lists`: three corners per triangle, for each mesh
-/// over these positions. Returns zeros if the mesh is 2^16 steps wide or more. `allocator`: for temporary memory; null:
-/// operator new.
+/// rounding only if dP/du scatters between neighboring triangles as it does after rounding (without UVs: never).
+/// `corner_lists`: three corners per triangle, for each mesh over these positions. Returns zeros if the mesh is 2^16
+/// steps wide or more. `allocator`: for temporary memory; null: operator new.
 PositionRounding roundingOf(StridedSpan<const Vec3> positions, StridedSpan<const Vec2> uvs,
                             std::span<const std::span<const std::uint32_t>> corner_lists, double stored_step = 0,
                             const Allocator* allocator = nullptr);

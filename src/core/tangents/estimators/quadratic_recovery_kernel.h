@@ -281,7 +281,7 @@ inline Doubt doubtIn(const Fit& f, const Reduced& m, const Solution& s) {
         m.ridge * dot(s.q[0], s.q[0]) + (m.ridge + m.ridge) * dot(s.q[1], s.q[1]) + m.ridge * dot(s.q[2], s.q[2]);
     const Floats explained = dot(s.q[0], m.p[0]) + dot(s.q[1], m.p[1]) + dot(s.q[2], m.p[2]) + broadcast(kRidge) * held;
     const Floats left = f.energy - dot(f.r[0], m.linear[0]) - dot(f.r[1], m.linear[1]) - explained;
-    // A NaN becomes kMissLimit; only the doubt because of rounding then matters.
+    // smaller() turns a NaN into kMissLimit; the doubt due to rounding then dominates.
     const Floats miss = smaller(larger(left, zero()) / explained, broadcast(kMissLimit));
     const Floats doubt = broadcast(kBendWeight) * (bend * bend) +
                          broadcast(kMissWeight) * miss * (bend / (bend + broadcast(kSmallBend)));

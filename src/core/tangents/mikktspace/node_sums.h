@@ -62,7 +62,7 @@ class FanPool {
 class Fan {
   public:
     [[nodiscard]] bool isOne() const { return ends_[0] != 0 && ends_[2] == 0; }
-    /// Returns the second path; 0 if there is at most one.
+    /// Returns a value that is not 0 if the fan has more than one path.
     [[nodiscard]] std::uint32_t secondPath() const { return ends_[2]; }
 
     /// Adds a triangle. Its corner at this node is followed by the node `next` and preceded by `previous`. Branchless,

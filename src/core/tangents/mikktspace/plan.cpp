@@ -5,15 +5,16 @@
 // h denotes a half-edge of the plan's own triangles, 3 * t + k: triangle t is triangle triangles[t] of the mesh, or t
 // if that list is empty.
 //
-// list             how many               an entry is                                its top bit (kTopBit) means
+// list             how many               an entry is                                kTopBit in the entry means
 // vertices         one per h              the vertex with the data of its corner      -
-// groups           one per h              its group                                  it adds nothing (no UV area)
-// slots            one per h, or empty    its corner of the mesh                     it has several results: conflicts
+// groups           one per h              its group                                  no UV area: h contributes nothing
+// slots            one per h, or empty    its corner of the mesh                     several results: see conflicts
 // triangles        one per t, or empty    its number in the mesh                     -
 // group_positive   one per group          1: positive UV area                        -
 // uvs, terms       vertices; blocks of t  kept plans have UVs, others CornerTerms    -
-// splits           one per split group    a range of `members`, its first row        -
-// members          members of these       an h                                       -
+// splits           one per split group    a range of `members`, and its first row    -
+//                                         in split_rows
+// members          members of these       a half-edge h                              -
 // split_rows       one row per member     bit b: member b counts for this member     -
 // conflicts        two or more per corner  a corner of the mesh, and a source:        source is in `members`, no group
 //                                         a group whose result it takes

@@ -28,7 +28,7 @@ inline constexpr std::uint32_t kNone = 0xffffffffu;
 /// Flag bit, which numbers of half-edges, corners and groups do not use. plan.cpp has a table of its meanings.
 inline constexpr std::uint32_t kTopBit = 0x80000000u;
 inline constexpr std::uint32_t kValue = 0x7fffffffu;
-/// Maximum number of half-edges of a mesh, which share 32 bits with kTopBit.
+/// Maximum number of half-edges of a mesh: their indices share a 32-bit word with the flag kTopBit.
 inline constexpr std::uint64_t kMaxHalfEdges = kValue;
 
 struct Copy {

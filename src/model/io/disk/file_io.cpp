@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Reads in steps of a huge page: the kernel has just cleared the page, so it is still in the cache.
+/// Reads one huge page per step: the first access makes the kernel clear the page, so it is still in the cache when the
+/// data are copied to it.
 bool readSteps(std::FILE* file, std::span<std::uint8_t> to, const Execution& execution) {
     const std::size_t steps = (to.size() + kHugePage - 1) / kHugePage;
     std::atomic<bool> good = true;
