@@ -108,9 +108,8 @@ void warnOfIdleNormals(const GenerateOptions& options, GenerateReport& report) {
         if (options.normals.compute.denoise != 0) idle.emplace_back("--denoise");
         if (options.normals.per_primitive) idle.emplace_back("--normals-per-primitive");
         warn(idle,
-             options.normals.overwrite
-                 ? "the file has no primitive whose normals can be recomputed"
-                 : "no normals were computed; --overwrite-normals recomputes existing ones",
+             options.normals.overwrite ? "the file has no primitive whose normals can be recomputed"
+                                       : "no normals were computed; --overwrite-normals recomputes existing ones",
              report);
     }
     warnOfNoise(options, any_made, report);
