@@ -46,7 +46,7 @@ TEST(CheckFile, ReadsKtx2AndDds) {
     model.folder.write("normal.png", ddsFile(83, 256, 256, bc5Blocks(normalMapOf(256, bumps))));
     const CheckReport report = model.check();
     ASSERT_EQ(codes(report), (CodeCounts{"warning normalMapTwoChannels", "note normalMapLevels"}));
-    EXPECT_NE(report.findings[0].message.find("it is BC5 in a DDS"), std::string::npos);
+    EXPECT_NE(report.findings[0].message.find("(format: BC5 in a DDS)"), std::string::npos);
     EXPECT_NE(report.findings[0].remedy.find("--fix-maps"), std::string::npos) << report.findings[0].remedy;
     model.folder.write("normal.png", ddsFile(83, 256, 256, bc5Blocks(normalMapOf(256, bumps, true))));
     EXPECT_EQ(codes(model.check()),
