@@ -25,7 +25,8 @@ const leavesFilesBeside = ({ warnings }) => warnings?.some((warning) => warning.
 const isLeftOut = (warning) => warning.startsWith("a texture was ignored");
 function withoutPlaces(report) {
   const shorten = (text) => text.replace(/ \(at [^()]*\)$/, "");
-  for (const finding of report.findings ?? []) if (finding.code === "fileRemark") finding.message = shorten(finding.message);
+  for (const finding of report.findings ?? [])
+    if (finding.code === "fileRemark") for (const text of ["message", "cause"]) finding[text] = shorten(finding[text]);
   if (report.warnings) report.warnings = report.warnings.map(shorten);
   return report;
 }
