@@ -347,8 +347,7 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     }
     vertices.old_tangents = decoded.old_tangents.span();
     SharedArray<Vec3> old_normals;
-    if (keeps_signs && !decoded.old_tangents.empty() && first.find("NORMAL") &&
-        readAccessor(document_, *first.find("NORMAL")).component_count == 3)
+    if (keeps_signs && !decoded.old_tangents.empty() && first.find("NORMAL"))
         old_normals = arrays_.borrowVec3(first, "NORMAL");
     vertices.is_from_blender = pool.is_from_blender;
     vertices.makes_tangents = pool.makes_tangents;
