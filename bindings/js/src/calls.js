@@ -43,7 +43,7 @@ export function setMesh(call, { positions, normals, uvs, ...lists }) {
 /** Names of tangent options. */
 export const mikktspaceOptions = ["method", "threshold", "pairing", "ngons", "convention", "normalizeNormals"];
 
-/** Returns the tangent options in the form that the module expects. */
+/** Returns the arguments of the module's setTangentOptions. */
 export function tangentArguments(options, { methods, ngons }) {
   return [
     choice(valueOr(options.method, "mikktspace"), "method", methods),
@@ -124,8 +124,10 @@ export function makeCalls(wasm, choices) {
       optionsOf(options, [...choices.options, "hasTangent", "report"]);
       const given = tangentArguments(options, choices);
       const checked = meshOf(mesh);
-      return writeTangents(wasm, checked, checked.cornerCount, options, (module, ...places) =>
-        module.generateTangents(...given, ...places));
+      return writeTangents(wasm, checked, checked.cornerCount, options, (module, ...places) => {
+        module.setTangentOptions(...given);
+        return module.generateTangents(...places);
+      });
     },
 
     sanitizeTangents(mesh, tangents, options = {}) {

@@ -4,7 +4,7 @@ import { givenMesh, ignoredOptions, makeCalls, meshOf, mikktspaceOptions, setMes
 import { boolean, fail, failType, floats, integers, isMissing, object, optionsOf, valueOr } from "./check.js";
 import { TspaceError } from "./error.js";
 import { methodNames, ngonsNames, normalReportNames, sanitizeReportNames, tangentReportNames } from "./names.js";
-import { ignoredNormalOptions, normalArguments, normalOptions, normalsOf } from "./normal_calls.js";
+import { ignoredNormalOptions, normalSetter, normalOptions, normalsOf } from "./normal_calls.js";
 import { Wasm } from "./wasm.js";
 
 const wasm = new Wasm();
@@ -59,12 +59,14 @@ export function makeIndexedFrames(mesh, options = {}) {
   optionsOf(options, [...tangentOptions, ...steps, "normals", "report"]);
   const tangents = tangentArguments(options, choices);
   const chosen = steps.map((name) => boolean(valueOr(options[name], name === "sanitize"), name));
-  const normals = normalArguments(object(valueOr(options.normals, {}), "normals", normalOptions), false);
+  const setNormalOptions = normalSetter(object(valueOr(options.normals, {}), "normals", normalOptions), false);
   const checked = meshOf(mesh);
   return wasm.run((call) => {
     setMesh(call, checked);
     const result = call.allocate(40);
-    call.check(call.wasm.makeIndexedFrames(...tangents, ...chosen, ...normals(call), result));
+    call.wasm.setTangentOptions(...tangents);
+    setNormalOptions(call);
+    call.check(call.wasm.makeIndexedFrames(...chosen, result));
     const words = call.get(Uint32Array, result, 10);
     const take = (Type, i, size) => call.take(Type, words[2 * i], size * words[2 * i + 1]);
     const makesNormals = chosen[0] || !checked.normals;
@@ -111,13 +113,14 @@ export class Plan {
       object(options, "options", ["indices", "sourceCorners", "mesh", "normals"]);
       const lists = ["indices", "sourceCorners"].map((name) => integers(options[name], name));
       const checked = isMissing(options.mesh) ? undefined : meshOf(options.mesh);
-      const normals = normalArguments(object(valueOr(options.normals, {}), "normals", [...normalOptions, "convention"]), false);
+      const setNormalOptions = normalSetter(object(valueOr(options.normals, {}), "normals", [...normalOptions, "convention"]), false);
       plan.#held();
       return wasm.run((call) => {
         if (checked) setMesh(call, checked);
         const arrays = lists.flatMap((list) => [call.put(list, Uint32Array), list?.length ?? 0]);
         const result = call.allocate(8);
-        call.check(call.wasm.planBuffers(plan.#place, ...arrays, checked !== undefined, ...normals(call), result));
+        setNormalOptions(call);
+        call.check(call.wasm.planBuffers(plan.#place, ...arrays, checked !== undefined, result));
         return new PlanBuffers(call.take(Uint32Array, ...call.get(Uint32Array, result, 2)));
       });
     };
@@ -134,7 +137,8 @@ export class Plan {
     wasm.run((call) => {
       setMesh(call, checked);
       const to = call.allocate(4);
-      call.check(call.wasm.makePlan(...given, to));
+      call.wasm.setTangentOptions(...given);
+      call.check(call.wasm.makePlan(to));
       this.#instance = wasm.instance;
       [this.#place] = call.get(Uint32Array, to, 1);
     });

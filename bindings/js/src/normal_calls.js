@@ -27,10 +27,10 @@ export function numberOrAuto(value, name) {
 }
 
 /**
- * Checks the options of normals. Returns a function of a call that copies the smoothing groups to the module's memory
- * and returns the arguments. `isWhole`: the module is that of "tspace/normals", which supports all options.
+ * Checks the options of normals. Returns a function that passes them to the module of a call. `isWhole`: the module is
+ * that of "tspace/normals", which supports all options.
  */
-export function normalArguments(options, isWhole) {
+export function normalSetter(options, isWhole) {
   for (const [name, given] of [["creaseAngle", options.creaseAngle === "auto"], ["denoise", options.denoise === "auto" || options.denoise > 0]])
     if (given && !isWhole) fail("invalidOption", `${name}: ${options[name]} is only supported by generateNormals of "tspace/normals"`);
   const groups = integers(options.smoothingGroups, "smoothingGroups");
@@ -43,19 +43,20 @@ export function normalArguments(options, isWhole) {
     numberOrAuto(valueOr(options.denoise, 0), "denoise"),
     numberOrAuto(valueOr(options.weldDistance, 0), "weldDistance"),
   ];
-  return (call) => [...before, call.put(groups, Uint32Array), groups?.length ?? 0, ...after];
+  return (call) => call.wasm.setNormalOptions(...before, call.put(groups, Uint32Array), groups?.length ?? 0, ...after);
 }
 
 /** Creates generateNormals for an entry. */
 export const normalsOf = (wasm, isWhole) => function generateNormals(mesh, options = {}) {
   optionsOf(options, [...normalOptions, "convention", "report"]);
-  const given = normalArguments(options, isWhole);
+  const setOptions = normalSetter(options, isWhole);
   const { positions, indices, faceSizes } = givenMesh(mesh);
   const checked = meshOf({ positions, indices, faceSizes });
   return wasm.run((call) => {
     setMesh(call, checked);
     const out = call.allocate(checked.cornerCount * 12 + 16);
-    call.check(call.wasm.generateNormals(...given(call), out));
+    setOptions(call);
+    call.check(call.wasm.generateNormals(out));
     keepReport(call, options, normalReportNames, ignoredNormalOptions(options));
     return call.get(Float32Array, out, checked.cornerCount * 3);
   });

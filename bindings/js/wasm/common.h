@@ -15,6 +15,9 @@ namespace tspace::js {
 /// Returns the mesh that setMesh() received.
 const MeshView& mesh();
 
+/// Returns the options that setNormalOptions() received.
+const NormalOptions& normalOptions();
+
 /// Decodes a convention: v axis in the lowest two bits, then one bit each for green, stored sign, handedness and
 /// winding.
 Convention conventionOf(std::uint32_t bits);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The module of the entry "tspace".
 #include "common.h"
-#include "normal_options.h"
 #include "tspace/indexed_frames.h"
 #include "tspace/plan_buffers.h"
 
@@ -9,46 +8,34 @@ using namespace tspace;
 using namespace tspace::js;
 
 namespace {
-
-TangentOptions tangentOptions(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
-                              std::uint32_t convention, std::uint32_t frame, std::uint32_t refine,
-                              bool normalize_normals) {
-    TangentOptions options;
-    options.method = static_cast<Method>(method);
-    options.angular_threshold_deg = threshold_deg;
-    options.pairing = static_cast<Pairing>(pairing);
-    options.ngons = static_cast<Ngons>(ngons);
-    options.convention = conventionOf(convention);
-    options.frame = static_cast<FrameShape>(frame);
-    options.refine = refine;
-    options.normalize_normals = normalize_normals;
-    return options;
-}
-
+TangentOptions tangent_options;  // of the next call
 }  // namespace
 
 extern "C" {
 
+TSPACE_JS_EXPORT(setTangentOptions)
+void setTangentOptions(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
+                       std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, bool normalize_normals) {
+    tangent_options = {.method = static_cast<Method>(method),
+                       .convention = conventionOf(convention),
+                       .ngons = static_cast<Ngons>(ngons),
+                       .frame = static_cast<FrameShape>(frame),
+                       .normalize_normals = normalize_normals,
+                       .angular_threshold_deg = threshold_deg,
+                       .pairing = static_cast<Pairing>(pairing),
+                       .refine = refine};
+}
+
 /// `out`: receives four floats per corner; `has_tangent`: receives a byte per corner, or null.
-TSPACE_JS_EXPORT(generateTangents)
-std::uint32_t generate(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
-                       std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, bool normalize_normals,
-                       float* out, std::uint8_t* has_tangent) {
-    const auto options =
-        tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine, normalize_normals);
-    auto result = generateTangents(mesh(), options, outputOf(out, has_tangent, mesh().cornerCount()));
+TSPACE_JS_EXPORT(generateTangents) std::uint32_t generate(float* out, std::uint8_t* has_tangent) {
+    auto result = generateTangents(mesh(), tangent_options, outputOf(out, has_tangent, mesh().cornerCount()));
     if (result) keep(*result);
     return codeOf(result);
 }
 
 /// `plan`: receives the plan, to be destroyed with destroyPlan.
-TSPACE_JS_EXPORT(makePlan)
-std::uint32_t makePlan(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
-                       std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, bool normalize_normals,
-                       TangentPlan** plan) {
-    const auto options =
-        tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine, normalize_normals);
-    auto result = planTangents(mesh(), options);
+TSPACE_JS_EXPORT(makePlan) std::uint32_t makePlan(TangentPlan** plan) {
+    auto result = planTangents(mesh(), tangent_options);
     if (result) *plan = new TangentPlan(*std::move(result));
     return codeOf(result);
 }
@@ -69,14 +56,11 @@ TSPACE_JS_EXPORT(destroyPlan) void destroyPlan(TangentPlan* plan) { delete plan;
 TSPACE_JS_EXPORT(planBuffers)
 std::uint32_t buffers(const TangentPlan* plan, const std::uint32_t* indices, std::size_t index_count,
                       const std::uint32_t* source_corners, std::size_t source_corner_count, bool makes_normals,
-                      std::uint32_t weighting, float crease_angle_deg, const std::uint32_t* groups,
-                      std::size_t group_count, bool groups_are_masks, bool weld_positions, std::uint32_t convention,
-                      std::uint32_t refine, float denoise, float weld_distance, std::uint32_t* result) {
+                      std::uint32_t* result) {
     PlanBufferOptions options{.indices = {indices, index_count},
                               .source_corners = {source_corners, source_corner_count}};
     if (makes_normals) options.mesh = mesh();
-    options.normals = normalOptions(weighting, crease_angle_deg, groups, group_count, groups_are_masks, weld_positions,
-                                    convention, refine, denoise, weld_distance);
+    options.normals = normalOptions();
     auto made = planBuffers(*plan, options);
     if (!made) return codeOf(made);
     giveArray(made->words, result);
@@ -87,17 +71,10 @@ std::uint32_t buffers(const TangentPlan* plan, const std::uint32_t* indices, std
 /// tangents, to be freed individually. The report contains the 9 numbers of tangents, then the 13 of sanitize and the 5
 /// of normals.
 TSPACE_JS_EXPORT(makeIndexedFrames)
-std::uint32_t frames(std::uint32_t method, float threshold_deg, std::uint32_t pairing, std::uint32_t ngons,
-                     std::uint32_t convention, std::uint32_t frame, std::uint32_t refine, bool normalize_normals,
-                     bool make_normals, bool sanitize, bool orthogonalize_all, std::uint32_t weighting,
-                     float crease_angle_deg, const std::uint32_t* groups, std::size_t group_count,
-                     bool groups_are_masks, bool weld_positions, std::uint32_t normal_convention,
-                     std::uint32_t normal_refine, float normal_denoise, float weld_distance, std::uint32_t* result) {
+std::uint32_t frames(bool make_normals, bool sanitize, bool orthogonalize_all, std::uint32_t* result) {
     IndexedFramesOptions options;
-    options.tangents =
-        tangentOptions(method, threshold_deg, pairing, ngons, convention, frame, refine, normalize_normals);
-    options.normals = normalOptions(weighting, crease_angle_deg, groups, group_count, groups_are_masks, weld_positions,
-                                    normal_convention, normal_refine, normal_denoise, weld_distance);
+    options.tangents = tangent_options;
+    options.normals = normalOptions();
     options.make_normals = make_normals;
     options.sanitize = sanitize;
     options.orthogonalize_all = orthogonalize_all;
