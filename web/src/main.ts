@@ -126,14 +126,16 @@ let linked = asked ? {} : first;
 const keep = keepLink(stage, () => findings.chosen, () => (pile.isEmpty && app.model !== own ? (app.model?.name ?? null) : null));
 stage.viewport.onDrawn = () => document.documentElement.dataset.state === "ready" && keep();
 function followLink(): void {
-  const { look, finding, split, camera } = linked as typeof first, { check } = app.reports as { check?: CheckReport };
+  const { look: wanted, finding, split, camera } = linked as typeof first, { check } = app.reports as { check?: CheckReport };
   linked = {};
   // The first view shows the worst finding.
   const worst = check && worstOf(check);
   const isDrawn = document.documentElement.dataset.picture === "drawn";
+  // Without colors the relief of the samples stands out, and with it their faults.
+  look.suggestColors(!(worst && sampleNamed(app.model?.name)));
   if (worst && isDrawn && finding === undefined && split === undefined && !camera) place.aim(check!.findings.filter(({ code }) => code === worst.code));
   if (finding !== undefined) findings.openFinding(finding);
-  if (look) stage.setLook(look);
+  if (wanted) stage.setLook(wanted);
   if (split !== undefined) stage.setSplit(split);
   if (camera) stage.viewport.lookFrom(camera);
 }

@@ -44,9 +44,12 @@ test("the first view names and shows the fault, and one click fixes it", { skip:
     assert.equal(await tab.locator(".result .counts").textContent(), "1 error → 0 errors");
     assert.equal(await tab.evaluate(() => window.tspaceView.views.stage.viewport.settings.look), "lit");
     assert.equal(await tab.locator(".fix a.large").getAttribute("download"), "crate-signs-lost-fixed.glb");
+    // Without colors, gray relief shows the fault; a model without a fault has its colors.
+    assert.equal(await tab.getByLabel("Colors").isChecked(), false);
     await openSample(tab, "crate.glb");
     assert.match(await seen(tab), /^No errors were found/);
     assert.equal(await tab.locator(".fix").isVisible(), false);
+    assert.equal(await tab.getByLabel("Colors").isChecked(), true);
   });
 });
 

@@ -339,7 +339,8 @@ std::string makerSentence(const Identification& result) {
     if (!makers.empty()) return "Made by different methods: " + makers + ".";
     const std::string name = makerOf(best), ties = tiesOf(result.explanations);
     if (best.nearShare() >= kSureShare)
-        return "Made by " + name + ": it explains " + percent(best.nearShare()) + " of the corners" + ties + ".";
+        return "Made by " + name + ": it explains the directions of " + percent(best.nearShare()) + " of the corners" +
+               ties + ".";
     if (keepsOnePerVertex(best)) {
         return "Made by " + name +
                ", but only one tangent per vertex was kept where corners differ: " + percent(best.nearShare()) +

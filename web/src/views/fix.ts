@@ -37,7 +37,7 @@ export class FixView {
     if (!plan) return this.#passFocus(this.caption);
     const left = plan.left > 0 ? ` ${plural(plan.left, "fault")} must be fixed in the program that made the model.` : "";
     this.#button.disabled = false;
-    replaceChildren(this.#button, el("strong", {}, "Fix it"), el("span", {}, `${plan.steps.join(", ")}${left === "" ? "" : "."}${left}`), el("span", {}, "Your file is not changed; you download the result as a new file."));
+    replaceChildren(this.#button, el("strong", {}, "Fix it"), el("span", {}, `${plan.steps.join(", ")}${left === "" ? "" : "."}${left}`), el("span", {}, "Shows the result, for you to download. Your file is not changed."));
     replaceChildren(this.element, this.#button);
   }
 

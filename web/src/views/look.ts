@@ -25,6 +25,11 @@ export class LookView {
     this.#viewport.setSurroundings(name);
     this.#sayOfPanorama("");
   });
+  #colors = checkbox("Colors", true, (on) => {
+    this.#choseColors = true;
+    this.#set({ usesColors: on });
+  });
+  #choseColors = false;
   #panoramaSaid = el("p", { class: "quiet", role: "status" });
 
   constructor(private stage: Stage, private changed: (right: Right) => void, private vary: (variant: number) => void) {
@@ -38,7 +43,6 @@ export class LookView {
       viewport.ask();
     });
     const wire = checkbox("Edges", false, (on) => this.#set({ isWire: on }));
-    const colors = checkbox("Colors", true, (on) => this.#set({ usesColors: on }));
     const axes = (["t", "b", "n"] as const).map((axis) => {
       const box = checkbox(axis.toUpperCase(), false, (on) => {
         if (on) this.#axes.add(axis);
@@ -64,9 +68,16 @@ export class LookView {
     });
     this.element.append(
       el("div", { class: "rows" }, this.#variants, frames.element, this.#figures, map.element,
-        el("div", { class: "row" }, wire.element, colors.element, shadows.element),
+        el("div", { class: "row" }, wire.element, this.#colors.element, shadows.element),
         el("div", { class: "row lines" }, ...axes), el("label", { class: "select slider" }, el("span", {}, "Length of the lines"), length), whose.element, this.#surroundings.element, el("div", { class: "select" }, el("span", {}, "Your own panorama"), panorama), this.#panoramaSaid, turn, exposure, ground.element));
     this.offerFile(null);
+  }
+
+  /** Shows or hides the colors, until the user has chosen. */
+  suggestColors(on: boolean): void {
+    if (this.#choseColors) return;
+    this.#colors.input.checked = on;
+    this.#set({ usesColors: on });
   }
 
   async #usePanorama(file: File): Promise<void> {
