@@ -31,36 +31,29 @@ Option ignoreOption(std::vector<FindingCode>& ignored) {
 }
 
 void addChecking(OptionList& list, CheckRequest& request) {
-    const char* group = "Checking";
+    const auto add = adder(list, "Checking");
     CheckOptions& options = request.options;
-    add(list, group,
-        choice("--fail-on", "LEVEL", kSeverities, request.fail_on,
+    add(choice("--fail-on", "LEVEL", kSeverities, request.fail_on,
                "Exit with code 1 if there is a finding of this severity or higher: note, warning or error."));
-    add(list, group,
-        choice("--severity", "LEVEL", kSeverities, request.min_severity,
+    add(choice("--severity", "LEVEL", kSeverities, request.min_severity,
                "Minimum severity to report: note, warning or error. Findings below it are not printed and do not "
                "affect the exit code."));
-    add(list, group, ignoreOption(request.ignored));
-    add(list, group,
-        degrees("--angle", options.direction_deg, 180,
+    add(ignoreOption(request.ignored));
+    add(degrees("--angle", options.direction_deg, 180,
                 "Tolerance in degrees, 0 to 180: how far a tangent may lie outside the range of directions that its "
                 "adjacent triangles span."));
-    add(list, group,
-        choice("--convention", "NAME", kConventions, options.convention,
+    add(choice("--convention", "NAME", kConventions, options.convention,
                "Expected sign convention: gltf, opengl, directx, unreal, unity, blender or godot, as in generate."));
-    add(list, group,
-        choice("--faces", "FACES", kFaces, options.faces,
+    add(choice("--faces", "FACES", kFaces, options.faces,
                "Faces used to compute the tangents that stored tangents are compared with: triangles; quads; or auto: "
                "quads where the stored tangents clearly fit quads better, as in files from Blender, otherwise "
                "triangles."));
-    add(list, group,
-        numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.weld_distance, NormalOptions::weld_auto,
-                     1000000000,
-                     "Weld distance, in mesh units (before node transforms): positions that differ by at most this "
-                     "distance in each coordinate are welded for the checks of winding, primitive borders and noise. "
-                     "0: only equal positions; auto: twice the float spacing at the largest coordinate of the mesh. "
-                     "Tangents are always computed on the unwelded positions."));
-    add(list, group, setting("--no-images", options.images, false, "Do not examine the pixels of normal maps."));
+    add(weldOption(options.weld_distance,
+                   "Weld distance, in mesh units (before node transforms): positions that differ by at most this "
+                   "distance in each coordinate are welded for the checks of winding, primitive borders and noise. "
+                   "0: only equal positions; auto: twice the float spacing at the largest coordinate of the mesh. "
+                   "Tangents are always computed on the unwelded positions."));
+    add(setting("--no-images", options.images, false, "Do not examine the pixels of normal maps."));
 }
 
 }  // namespace

@@ -259,56 +259,47 @@ Option factorOption(double& factor) {
 }
 
 void addRoughness(OptionList& list, CompressMapFileOptions& options) {
-    Option texture = fileOption(
-        "--roughness", "IMAGE", options.roughness,
-        "A glTF texture of occlusion, roughness and metalness. Its mip levels are made rougher according to the spread "
-        "of the normals within each texel, so that distant surfaces do not sparkle. Its size must be that of the "
-        "normal map, or that size multiplied or divided by a power of two (the same for width and height).",
-        InputKind::image);
-    texture.needs = "--roughness-output";
-    add(list, "Roughness", texture);
-    Option output =
-        fileOption("-o2, --roughness-output", "OUT", options.roughness_output,
+    const auto add = adder(list, "Roughness");
+    add(fileOption(
+            "--roughness", "IMAGE", options.roughness,
+            "A glTF texture of occlusion, roughness and metalness. Its mip levels are made rougher according to the "
+            "spread of the normals within each texel, so that distant surfaces do not sparkle. Its size must be that "
+            "of the normal map, or that size multiplied or divided by a power of two (the same for width and height).",
+            InputKind::image))
+        .needs = "--roughness-output";
+    add(fileOption("-o2, --roughness-output", "OUT", options.roughness_output,
                    "Output file of the roughness texture: .ktx2, .dds, .png (first mip level only), or a folder "
-                   "of PNGs (a name that ends in /).");
-    output.needs = "--roughness";
-    add(list, "Roughness", output);
-    add(list, "Roughness", factorOption(options.roughness_factor));
+                   "of PNGs (a name that ends in /)."))
+        .needs = "--roughness";
+    add(factorOption(options.roughness_factor));
 }
 
 }  // namespace
 
 OptionList compressMapOptions(CompressMapFileOptions& options) {
     OptionList list;
-    add(list, "Texture", formatOption(options.format));
-    add(list, "Texture",
-        choice("--quality", "QUALITY", kQualities, options.quality,
+    const auto add = adder(list, "Texture");
+    add(formatOption(options.format));
+    add(choice("--quality", "QUALITY", kQualities, options.quality,
                "Encoder quality. quick: encodes each channel separately; fast: minimizes the error of the filtered "
                "texture; best: like fast, with more iterations. Compared with fast, depending on the format and the "
                "map, quick has about 10% to 75% more error and takes about 35% to 60% of the time; best has up to 3% "
                "less error (astc-4x4: 2% to 33%) and takes 2.1 to 2.3 times as long."));
-    add(list, "Texture",
-        flag("--signed", options.is_signed,
+    add(flag("--signed", options.is_signed,
              "Write signed channels (SNORM), for engines that expect them. Flat areas, whose normal is (0, 0, 1), are "
              "then exact if the input has more than 8 bits."));
-    addAlpha(list, "Texture", options.alpha);
-    addDdsHeader(list, "Texture", options.dds_header);
-    add(list, "Texture",
-        setting("--mips", options.levels, true,
+    add(alphaOption(options.alpha));
+    add(ddsHeaderOption(options.dds_header));
+    add(setting("--mips", options.levels, true,
                 "Write all mip levels, each computed from the first one. This is the default."));
-    Option no_levels = setting("--no-levels", options.levels, false, "Write only the first mip level.");
-    no_levels.excludes = {"--mips"};
-    add(list, "Texture", no_levels);
-    add(list, "Texture",
-        number("--zstd", options.zstd_level, 22,
+    add(setting("--no-levels", options.levels, false, "Write only the first mip level.")).excludes = {"--mips"};
+    add(number("--zstd", options.zstd_level, 22,
                "Zstandard supercompression level of a .ktx2, from 1 (fast) to 22 (smallest); 0: none. Textures of "
                "detailed maps hardly become smaller."));
-    add(list, "Texture",
-        number("--bits", options.bits, 16, "Bits per channel of the normal-map PNGs, if OUT is a folder: 8 or 16."));
+    add(number("--bits", options.bits, 16, "Bits per channel of the normal-map PNGs, if OUT is a folder: 8 or 16."));
     addRoughness(list, options);
-    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything except writing the output."));
-    addThreads(list, options.execution,
-               "Number of threads; 0: one per core. The output is the same for any number of threads.");
+    options::add(list, kInputAndOutput, dryRunOption(options.dry_run));
+    addThreads(list, options.execution);
     addMemoryLimit(list, options.file.memory_limit_bytes);
     addSync(list, options.file.sync);
     return list;

@@ -367,84 +367,67 @@ constexpr Named<unsigned> kBitCounts[] = {{"8", 8}, {"16", 16}, {"32", 32}};
 
 OptionList convertMapOptions(ConvertMapFileOptions& options) {
     OptionList list;
-    add(list, kInputAndOutput,
-        fileOption("--mesh", "FILE", options.mesh,
-                   "The model that the map was made for. Its tangents are used; missing ones are computed.",
-                   InputKind::model));
-    add(list, kInputAndOutput,
-        fileOption("--to-mesh", "FILE", options.to_mesh,
-                   "Model that will use the map. It must have the same surface and UVs; tangents, normals, splits and "
-                   "triangulation may differ. Default: the model of --mesh.",
-                   InputKind::model));
-    addMaterialOfMap(list, options.material);
-    add(list, kInputAndOutput,
-        number("--tile", options.tile, 9999,
-               "UDIM tile of the map (1001, ...): use only the triangles in this tile. 0: all triangles."));
-    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything except writing the output."));
+    const auto addFile = adder(list, kInputAndOutput), add = adder(list, "Map");
+    addFile(fileOption("--mesh", "FILE", options.mesh,
+                       "The model that the map was made for. Its tangents are used; missing ones are computed.",
+                       InputKind::model));
+    addFile(fileOption("--to-mesh", "FILE", options.to_mesh,
+                       "Model that will use the map. It must have the same surface and UVs; tangents, normals, splits "
+                       "and triangulation may differ. Default: the model of --mesh.",
+                       InputKind::model));
+    addFile(materialOfMapOption(options.material));
+    addFile(number("--tile", options.tile, 9999,
+                   "UDIM tile of the map (1001, ...): use only the triangles in this tile. 0: all triangles."));
+    addFile(dryRunOption(options.dry_run));
     addAllowExternal(list, options.file);
-    const char* group = "Map";
-    add(list, group,
-        choice("--from", "SPACE", kSpaces, options.from,
+    add(choice("--from", "SPACE", kSpaces, options.from,
                "Space of the input vectors: tangent, object (the coordinates of the mesh), or world (the coordinates "
                "of the scene, after the node's transform)."));
-    add(list, group,
-        choice("--to", "SPACE", kSpaces, options.to,
+    add(choice("--to", "SPACE", kSpaces, options.to,
                "Space of the output vectors: tangent, object (the coordinates of the mesh), or world (the coordinates "
                "of the scene)."));
-    add(list, group, axesOption([&options](const MapAxes& axes) { options.axes = axes; }));
-    add(list, group,
-        readingOption(
-            "--from-convention", options.from_reading,
-            "Program that the map was made for: gltf, opengl, directx, unreal, unity, blender, godot or three."));
-    add(list, group,
-        readingOption(
-            "--to-convention", options.to_reading,
-            "Program that will use the output: gltf, opengl, directx, unreal, unity, blender, godot or three."));
-    add(list, group,
-        choice("--from-bitangent", "WHERE", kBitangents, options.from_reading.bitangent,
+    add(axesOption([&options](const MapAxes& axes) { options.axes = axes; }));
+    add(readingOption(
+        "--from-convention", options.from_reading,
+        "Program that the map was made for: gltf, opengl, directx, unreal, unity, blender, godot or three."));
+    add(readingOption(
+        "--to-convention", options.to_reading,
+        "Program that will use the output: gltf, opengl, directx, unreal, unity, blender, godot or three."));
+    add(choice("--from-bitangent", "WHERE", kBitangents, options.from_reading.bitangent,
                "Bitangents that the map was made for. vertex: computed per vertex and interpolated; pixel: computed "
                "per pixel. Default: as in the program of --from-convention; for gltf: pixel."))
         .default_text.clear();
-    add(list, group,
-        choice("--to-bitangent", "WHERE", kBitangents, options.to_reading.bitangent,
+    add(choice("--to-bitangent", "WHERE", kBitangents, options.to_reading.bitangent,
                "Bitangents that the output is made for. vertex: computed per vertex and interpolated; pixel: computed "
                "per pixel. Default: as in the program of --to-convention; for gltf: pixel."))
         .default_text.clear();
-    add(list, group,
-        option(
-            "--channels", "LETTERS",
-            [&options](const std::string& value) { return takeChannels(value, options.layout); },
-            "Channels of IN that store x, y and z: bgr if red and blue are exchanged. With two letters z is "
-            "reconstructed from x and y: rg for maps whose blue is unused, ag for DXT5nm. A capital letter inverts a "
-            "channel. Default: rgb."));
-    add(list, group,
-        setting("--srgb", options.layout.curve, MapCurve::srgb,
+    add(option(
+        "--channels", "LETTERS", [&options](const std::string& value) { return takeChannels(value, options.layout); },
+        "Channels of IN that store x, y and z: bgr if red and blue are exchanged. With two letters z is "
+        "reconstructed from x and y: rg for maps whose blue is unused, ag for DXT5nm. A capital letter inverts a "
+        "channel. Default: rgb."));
+    add(setting("--srgb", options.layout.curve, MapCurve::srgb,
                 "Undo an sRGB encoding: the values of IN were stored as colors, with the sRGB curve."));
-    Option linearized = setting("--linearized", options.layout.curve, MapCurve::linearized,
-                                "Reapply the sRGB curve: the values of IN were decoded as sRGB by mistake.");
+    Option& linearized = add(setting("--linearized", options.layout.curve, MapCurve::linearized,
+                                     "Reapply the sRGB curve: the values of IN were decoded as sRGB by mistake."));
     linearized.old_names = {"--linearised"};
     linearized.excludes = {"--srgb"};
-    add(list, group, std::move(linearized));
-    add(list, group,
-        option(
-            "--flip-red", "", [](const std::string&) { return std::string(); },
-            "Invert the red channel of the output, for maps with inverted x."));
-    add(list, group,
-        option(
-            "--flip-green", "", [](const std::string&) { return std::string(); },
-            "Invert the green channel of the output, relative to --to-convention."));
-    add(list, group,
-        choice("--bits", "BITS", kBitCounts, options.bits,
+    add(option(
+        "--flip-red", "", [](const std::string&) { return std::string(); },
+        "Invert the red channel of the output, for maps with inverted x."));
+    add(option(
+        "--flip-green", "", [](const std::string&) { return std::string(); },
+        "Invert the green channel of the output, relative to --to-convention."));
+    add(choice("--bits", "BITS", kBitCounts, options.bits,
                "Bits per channel of the output: 8 or 16 in a PNG; 16 (half) or 32 (float) in an EXR. Default: the most "
                "that the format supports."));
-    addLengths(list, group, options.lengths);
-    addAlpha(list, group, options.alpha);
-    addDdsHeader(list, group, options.dds_header);
-    add(list, group,
-        number("--padding", options.padding, 65536,
+    add(lengthsOption(options.lengths));
+    add(alphaOption(options.alpha));
+    add(ddsHeaderOption(options.dds_header));
+    add(number("--padding", options.padding, 65536,
                "Width of the padding around UV islands that is converted too, in texels. 0: only texels that filtering "
                "reads. Texels farther away are background and are not changed."));
-    addMakingAnImage(list, group, options.tangents.method, options.execution, options.file);
+    addMakingAMap(list, options.tangents.method, options.execution, options.file);
     return list;
 }
 

@@ -269,14 +269,12 @@ namespace tspace::options {
 
 OptionList diffOptions(DiffRequest& request) {
     OptionList list;
-    const char* group = "Comparing";
+    const auto add = adder(list, "Comparing");
     addAllowExternal(list, request.options.file);
-    add(list, group,
-        degrees("--tolerance", request.tolerance_deg, 180,
+    add(degrees("--tolerance", request.tolerance_deg, 180,
                 "Exit with code 1 if an angle exceeds this tolerance, a sign differs, or a triangle has no match. In "
                 "degrees, 0 to 180."));
-    add(list, group,
-        number("--worst", request.options.worst_count, 10000,
+    add(number("--worst", request.options.worst_count, 10000,
                "Number of vertices to list, in order of decreasing difference."));
     addLimits(list, request.options.file);
     return list;
@@ -303,7 +301,7 @@ OptionList inspectOptions(FileOptions& options) {
 
 OptionList flipGreenOptions(FlipGreenOptions& options) {
     OptionList list;
-    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything except writing the output."));
+    add(list, kInputAndOutput, dryRunOption(options.dry_run));
     addMemoryLimit(list, options.memory_limit_bytes);
     addSync(list, options.sync);
     return list;

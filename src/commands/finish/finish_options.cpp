@@ -38,45 +38,38 @@ constexpr std::string_view kBakes[] = {"--match",
 
 OptionList finishOptions(FinishOptions& options) {
     OptionList list;
-    add(list, kInputAndOutput,
-        fileOption("--low", "LOW", options.low,
-                   "Low-poly model with UVs, aligned with IN. It is repaired in the same way, all maps are baked "
-                   "onto it from IN, and OUT is the low poly with its maps.",
-                   InputKind::model));
+    const auto add = adder(list, "Normals"), addRepair = adder(list, "Repair");
+    options::add(list, kInputAndOutput,
+                 fileOption("--low", "LOW", options.low,
+                            "Low-poly model with UVs, aligned with IN. It is repaired in the same way, all maps are "
+                            "baked onto it from IN, and OUT is the low poly with its maps.",
+                            InputKind::model));
     addAllowExternal(list, options.file);
     addKeepCoordinates(list, options.file);
-    add(list, "Normals",
-        choice("--normals", "WHICH", kFinishNormals, options.normals,
+    add(choice("--normals", "WHICH", kFinishNormals, options.normals,
                "Normals to recompute, with the method of generate --normals best. missing: missing normals and normals "
                "that check reports as errors; all: every normal; none: keep all existing normals, and compute missing "
                "ones only if tangents require them."));
-    add(list, "Normals",
-        numberOrAuto(
-            "--crease", "DEG", "a number of degrees", options.crease_angle_deg, NormalOptions::crease_auto, 180,
-            "Crease angle for recomputed normals of IN: edges whose faces meet at a larger angle stay hard. In "
-            "degrees, 0 to 180; 180: no hard edges; auto: an angle chosen per mesh, which the report states."));
-    add(list, "Normals",
-        numberOrAuto(
-            "--denoise", "FACTOR", "a number", options.denoise, NormalOptions::denoise_auto, 4,
-            "Denoising for recomputed normals on noisy positions, such as scans: normals are computed from a larger "
-            "neighborhood. auto: strength from the measured noise level, or off if the deviations look like real "
-            "detail; 0: off; up to 4: multiple of the measured noise level, applied even if the deviations look like "
-            "real detail."));
-    add(list, "Normals",
-        numberOrAuto("--weld-distance", "DISTANCE", "a distance", options.weld_distance, NormalOptions::weld_auto,
-                     1000000000,
-                     "Weld distance, in mesh units (before node transforms): positions that differ by at most this "
-                     "distance in each coordinate are welded when normals are computed, winding is fixed and borders "
-                     "are compared. 0: only equal positions; auto: twice the float spacing at the largest coordinate "
-                     "of the mesh. Tangents are always computed on the unwelded positions."));
-    add(list, "Repair",
-        setting("--keep-winding", options.mend_winding, false,
-                "Do not fix the winding: keep triangles that disagree with their neighbors, and components that are "
-                "inside out."));
-    add(list, "Repair",
-        setting("--no-images", options.images, false,
-                "Do not read the pixels of normal maps. Inverted tangent signs are then kept, because the maps may be "
-                "inverted too."));
+    add(numberOrAuto(
+        "--crease", "DEG", "a number of degrees", options.crease_angle_deg, NormalOptions::crease_auto, 180,
+        "Crease angle for recomputed normals of IN: edges whose faces meet at a larger angle stay hard. In "
+        "degrees, 0 to 180; 180: no hard edges; auto: an angle chosen per mesh, which the report states."));
+    add(numberOrAuto("--denoise", "FACTOR", "a number", options.denoise, NormalOptions::denoise_auto, 4,
+                     "Denoising for recomputed normals on noisy positions, such as scans: normals are computed from a "
+                     "larger neighborhood. auto: strength from the measured noise level, or off if the deviations look "
+                     "like real detail; 0: off; up to 4: multiple of the measured noise level, applied even if the "
+                     "deviations look like real detail."));
+    add(weldOption(options.weld_distance,
+                   "Weld distance, in mesh units (before node transforms): positions that differ by at most this "
+                   "distance in each coordinate are welded when normals are computed, winding is fixed and borders "
+                   "are compared. 0: only equal positions; auto: twice the float spacing at the largest coordinate "
+                   "of the mesh. Tangents are always computed on the unwelded positions."));
+    addRepair(setting("--keep-winding", options.mend_winding, false,
+                      "Do not fix the winding: keep triangles that disagree with their neighbors, and components that "
+                      "are inside out."));
+    addRepair(setting("--no-images", options.images, false,
+                      "Do not read the pixels of normal maps. Inverted tangent signs are then kept, because the maps "
+                      "may be inverted too."));
     for (Option& option : bakeOptions(options.bake)) {
         if (std::find(std::begin(kBakes), std::end(kBakes), option.name()) == std::end(kBakes)) continue;
         option.needs = "--low";
@@ -97,12 +90,11 @@ OptionList finishOptions(FinishOptions& options) {
         if (option.name() == "--high-green") option.excludes = {"--ignore-high-maps"};
         list.push_back(std::move(option));
     }
-    addRunning(list, options.execution,
-               "Number of threads; 0: one per core. The output is the same for any number of threads.", options.file);
-    add(list, kReporting,
-        htmlOutput("--html", "PAGE", options.page,
-                   "Also write a self-contained HTML report to this file, with pictures before and after and the "
-                   "findings of check."));
+    addRunning(list, options.execution, options.file);
+    options::add(list, kReporting,
+                 htmlOutput("--html", "PAGE", options.page,
+                            "Also write a self-contained HTML report to this file, with pictures before and after and "
+                            "the findings of check."));
     return list;
 }
 

@@ -142,55 +142,45 @@ constexpr Named<HeightEncoding> kEncodings[] = {{"gray", HeightEncoding::gray},
 
 OptionList heightToNormalOptions(HeightToNormalFileOptions& options) {
     OptionList list;
+    const auto addFile = adder(list, kInputAndOutput), add = adder(list, "Map");
     const auto take_strength = [&options](const std::string& value) {
         return parseReal(value, options.strength) ? std::string() : std::string("must be a number");
     };
-    Option strength = option("--strength", "S", take_strength,
-                             "Height of white above black: in model units with --mesh, otherwise in the unit of "
-                             "--texel-size (texels by default). Negative: white is lower than black. With --encoding "
-                             "terrain-rgb or terrarium: a factor applied to the heights.");
-    strength.default_text = std::to_string(1);
-    add(list, "Map", strength);
-    add(list, "Map",
-        choice("--encoding", "NAME", kEncodings, options.encoding,
+    add(option("--strength", "S", take_strength,
+               "Height of white above black: in model units with --mesh, otherwise in the unit of "
+               "--texel-size (texels by default). Negative: white is lower than black. With --encoding "
+               "terrain-rgb or terrarium: a factor applied to the heights."))
+        .default_text = std::to_string(1);
+    add(choice("--encoding", "NAME", kEncodings, options.encoding,
                "Height encoding of the image. gray: black is low, white is high; terrain-rgb (Mapbox) and terrarium "
                "(Mapzen): meters, encoded in red, green and blue."));
-    Option texel_size = option(
-        "--texel-size", "SIZE",
-        [&options](const std::string& value) {
-            return parseReal(value, options.texel_size) && options.texel_size > 0
-                       ? std::string()
-                       : std::string("must be a number greater than 0");
-        },
-        "Width of a texel, in any unit; --strength has the same unit. Meters for the terrain encodings. Not used with "
-        "--mesh.");
-    texel_size.default_text = std::to_string(1);
-    add(list, "Map", texel_size);
-    add(list, kInputAndOutput,
-        fileOption(
-            "--mesh", "FILE", options.mesh,
-            "Model that uses the map. Slopes are then measured on its surface, independent of the image size and of "
-            "the UVs, and the normals are written in its tangent frames; missing tangents are computed.",
-            InputKind::model));
-    addMaterialOfMap(list, options.material);
-    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything except writing the output."));
+    add(option(
+            "--texel-size", "SIZE",
+            [&options](const std::string& value) {
+                return parseReal(value, options.texel_size) && options.texel_size > 0
+                           ? std::string()
+                           : std::string("must be a number greater than 0");
+            },
+            "Width of a texel, in any unit; --strength has the same unit. Meters for the terrain encodings. Not used "
+            "with --mesh."))
+        .default_text = std::to_string(1);
+    addFile(fileOption(
+        "--mesh", "FILE", options.mesh,
+        "Model that uses the map. Slopes are then measured on its surface, independent of the image size and of "
+        "the UVs, and the normals are written in its tangent frames; missing tangents are computed.",
+        InputKind::model));
+    addFile(materialOfMapOption(options.material));
+    addFile(dryRunOption(options.dry_run));
     addAllowExternal(list, options.file);
-    add(list, "Map",
-        flag("--clamp", options.clamp,
+    add(flag("--clamp", options.clamp,
              "Do not wrap around at the image borders; slopes there are one-sided differences. By default the image "
              "wraps around, as repeating textures do; with --mesh it wraps as the texture of the mesh does."));
-    const auto take_convention = [&options](const std::string& name) {
-        if (const MapReading* reading = findMapReading(name.c_str())) options.green = reading->green;
-        return std::string();
-    };
-    Option convention = option("--convention", "NAME", take_convention,
-                               "Program that will use the output: gltf, opengl, directx, unreal, unity, blender, godot "
-                               "or three. Green points down for directx and unreal, and up for the others.");
-    convention.choices = {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot", "three"};
-    convention.default_text = "gltf";
-    add(list, "Map", convention);
-    add(list, "Map", choice("--bits", "BITS", kPngBits, options.bits, "Bits per channel of the output: 8 or 16."));
-    addMakingAnImage(list, "Map", options.tangents.method, options.execution, options.file);
+    add(readingOption(
+        "--convention", [&options](const MapReading& reading) { options.green = reading.green; },
+        "Program that will use the output: gltf, opengl, directx, unreal, unity, blender, godot or three. "
+        "Green points down for directx and unreal, and up for the others."));
+    add(choice("--bits", "BITS", kPngBits, options.bits, "Bits per channel of the output: 8 or 16."));
+    addMakingAMap(list, options.tangents.method, options.execution, options.file);
     return list;
 }
 

@@ -26,8 +26,6 @@ struct NamedView {
 };
 constexpr NamedView kViews[] = {{"front", 0, 0}, {"back", 180, 0},   {"left", -90, 0},         {"right", 90, 0},
                                 {"top", 0, 90},  {"bottom", 0, -90}, {"three-quarter", 35, 20}};
-/// Names of the interpretations of normal maps that findMapReading accepts.
-constexpr const char* kReadings[] = {"gltf", "opengl", "directx", "unreal", "unity", "blender", "godot", "three"};
 
 /// Parses exactly `count` numbers, separated by commas.
 template <std::size_t count>
@@ -110,63 +108,45 @@ Option sizeOption(RenderOptions& options) {
     return made;
 }
 
-Option readingOption(RenderOptions& options) {
-    const auto take = [&options](const std::string& name) {
-        if (const MapReading* reading = findMapReading(name.c_str())) options.reading = *reading;
-        return std::string();
-    };
-    Option made = option("--reading", "PROGRAM", take,
-                         "Program whose shading convention for normal maps is used: gltf (green up; N and T are used "
-                         "as interpolated, because glTF does not specify that they are normalized), opengl, directx, "
-                         "unreal, unity, blender, "
-                         "godot or three. Tangents always follow the glTF convention.");
-    for (const char* name : kReadings) made.choices.emplace_back(name);
-    made.default_text = kReadings[0];
-    return made;
-}
-
 }  // namespace
 
 OptionList renderOptions(RenderOptions& options) {
     OptionList list;
-    const char* picture = "Picture";
-    add(list, kInputAndOutput, flag("--dry-run", options.dry_run, "Do everything except writing the output."));
+    const auto add = adder(list, "Picture"), addFrame = adder(list, "Frames");
+    options::add(list, kInputAndOutput, dryRunOption(options.dry_run));
     addAllowExternal(list, options.file);
-    add(list, picture,
-        choice("--show", "WHAT", kShows, options.show,
+    add(choice("--show", "WHAT", kShows, options.show,
                "Content of the picture. lit: the model under one light, with its normal maps; normals: N as colors; "
                "tangents: T as colors; sign: the tangent sign w, with stripes where UVs are mirrored; error: the angle "
                "between the file's tangents and those of --method; uv: the UV map with its islands; mapped: the "
                "normals after normal mapping, as used by the mode lit, shown as colors; both: lit, divided by a line, "
                "with the file's tangents on its left and those of --method on its right."));
-    add(list, picture, viewOption(options));
-    add(list, picture, lightOption(options));
-    add(list, picture, sizeOption(options));
-    add(list, picture,
-        degrees("--fov", options.field_of_view_deg, 120,
+    add(viewOption(options));
+    add(lightOption(options));
+    add(sizeOption(options));
+    add(degrees("--fov", options.field_of_view_deg, 120,
                 "Field of view along the shorter side, in degrees, 0 to 120; 0: orthographic."));
-    add(list, picture,
-        number("--samples", options.samples, 4,
+    add(number("--samples", options.samples, 4,
                "Number of samples along each side of a pixel, 1 to 4. 1: only the pixel center, so that colors are "
                "exact."));
-    add(list, picture,
-        number("--turntable", options.turntable, 999,
+    add(number("--turntable", options.turntable, 999,
                "Number of pictures of a turntable about the vertical axis: OUT_000.png, OUT_001.png, ... The camera "
                "keeps its distance. 1: a single picture, OUT."));
-    add(list, picture, setting("--no-legend", options.legend, false, "Omit the legend below the picture."));
-    add(list, picture,
-        setting("--no-pose", options.pose, false, "Ignore bones and morph targets: draw the model in its bind pose."));
-    const char* frames = "Frames";
-    add(list, frames,
+    add(setting("--no-legend", options.legend, false, "Omit the legend below the picture."));
+    add(setting("--no-pose", options.pose, false, "Ignore bones and morph targets: draw the model in its bind pose."));
+    addFrame(
         choice("--frames", "SOURCE", kShownFrames, options.frames,
                "Source of the tangents shown. auto: the file's tangents, or those of --method if the file has none; "
                "stored: only the file's; computed: always those of --method. --show error always compares both."));
-    add(list, frames,
-        choice("--method", "NAME", kMethods, options.method, "Method of the computed tangents, as in generate."));
-    add(list, frames, readingOption(options));
-    add(list, frames, setting("--no-textures", options.textures, false, "Ignore base color textures and normal maps."));
-    addRunning(list, options.execution,
-               "Number of threads; 0: one per core. The picture is the same for any number of threads.", options.file);
+    addFrame(choice("--method", "NAME", kMethods, options.method, "Method of the computed tangents, as in generate."));
+    addFrame(readingOption("--reading", options.reading,
+                           "Program whose shading convention for normal maps is used: gltf (green up; N and T are used "
+                           "as interpolated, because glTF does not specify that they are normalized), opengl, directx, "
+                           "unreal, unity, blender, godot or three. Tangents always follow the glTF convention."))
+        .value = "PROGRAM";
+    addFrame(setting("--no-textures", options.textures, false, "Ignore base color textures and normal maps."));
+    addRunning(list, options.execution, options.file,
+               "Number of threads; 0: one per core. The picture is the same for any number of threads.");
     return list;
 }
 

@@ -27,9 +27,9 @@ bool parseMemory(const std::string& text, std::uint64_t& bytes) {
 
 }  // namespace
 
-Option readingOption(const char* names, MapReading& target, HelpText help) {
-    const auto take = [&target](const std::string& value) {
-        if (const MapReading* reading = findMapReading(value.c_str())) target = *reading;
+Option readingOption(const char* names, std::function<void(const MapReading&)> store, HelpText help) {
+    const auto take = [store = std::move(store)](const std::string& value) {
+        if (const MapReading* reading = findMapReading(value.c_str())) store(*reading);
         return std::string();
     };
     Option chosen = option(names, "NAME", take, std::move(help));
@@ -84,46 +84,47 @@ void addLimits(OptionList& list, FileOptions& file) {
                "that for wall-clock time."));
 }
 
-void addLengths(OptionList& list, const char* group, TexelLengths& lengths) {
-    static constexpr Named<TexelLengths> kLengths[] = {{"even", TexelLengths::even}, {"free", TexelLengths::free}};
-    add(list, group,
-        choice("--lengths", "HOW", kLengths, lengths,
-               "Allowed vector lengths in 8-bit maps. A length other than 1 permits texel values with a smaller "
-               "angular error. even: 0.9 to 1, for textures whose mip levels are computed from the map, as engines do; "
-               "free: 0.7 to 1.1, which is more accurate close up and less accurate in mip levels."));
+Option weldOption(float& distance, HelpText help) {
+    constexpr int kMost = 1000000000;
+    return numberOrAuto("--weld-distance", "DISTANCE", "a distance", distance, NormalOptions::weld_auto, kMost,
+                        std::move(help));
 }
 
-void addAlpha(OptionList& list, const char* group, MapAlpha& alpha) {
+Option lengthsOption(TexelLengths& lengths) {
+    static constexpr Named<TexelLengths> kLengths[] = {{"even", TexelLengths::even}, {"free", TexelLengths::free}};
+    return choice("--lengths", "HOW", kLengths, lengths,
+                  "Allowed vector lengths in 8-bit maps. A length other than 1 permits texel values with a smaller "
+                  "angular error. even: 0.9 to 1, for textures whose mip levels are computed from the map, as engines "
+                  "do; free: 0.7 to 1.1, which is more accurate close up and less accurate in mip levels.");
+}
+
+Option alphaOption(MapAlpha& alpha) {
     static constexpr Named<MapAlpha> kAlphas[] = {
         {"auto", MapAlpha::automatic}, {"coverage", MapAlpha::coverage}, {"data", MapAlpha::data}};
-    add(list, group,
-        choice("--alpha", "MEANING", kAlphas, alpha,
-               "Meaning of the alpha channel. coverage: covered fraction of the texel, as in sprites and foliage; mip "
-               "levels are alpha-weighted means. data: anything else; alpha is ignored. auto: coverage if texels with "
-               "alpha 0 hold no unit vectors and the others do."));
+    return choice("--alpha", "MEANING", kAlphas, alpha,
+                  "Meaning of the alpha channel. coverage: covered fraction of the texel, as in sprites and foliage; "
+                  "mip levels are alpha-weighted means. data: anything else; alpha is ignored. auto: coverage if "
+                  "texels with alpha 0 hold no unit vectors and the others do.");
 }
 
-void addDdsHeader(OptionList& list, const char* group, DdsHeader& header) {
+Option ddsHeaderOption(DdsHeader& header) {
     static constexpr Named<DdsHeader> kHeaders[] = {
         {"dx10", DdsHeader::dx10}, {"legacy", DdsHeader::legacy}, {"bc5u", DdsHeader::bc5u}};
-    add(list, group,
-        choice("--dds-header", "HEADER", kHeaders, header,
-               "Header of a .dds. dx10: Direct3D 10. legacy: Direct3D 9, for older readers; BC5 has the FourCC ATI2, "
-               "signed BC5 has BC5S. bc5u: like legacy, with BC5U instead of ATI2."));
+    return choice("--dds-header", "HEADER", kHeaders, header,
+                  "Header of a .dds. dx10: Direct3D 10. legacy: Direct3D 9, for older readers; BC5 has the FourCC "
+                  "ATI2, signed BC5 has BC5S. bc5u: like legacy, with BC5U instead of ATI2.");
 }
 
-void addMaterialOfMap(OptionList& list, std::string& material) {
-    add(list, kInputAndOutput,
-        text("--material", "NAME", material,
-             "Use only the primitives with the material of this name. Default: those whose material references an "
-             "image with the name of the map; if there are none, all that have UVs."));
+Option materialOfMapOption(std::string& material) {
+    return text("--material", "NAME", material,
+                "Use only the primitives with the material of this name. Default: those whose material references an "
+                "image with the name of the map; if there are none, all that have UVs.");
 }
 
-void addMakingAnImage(OptionList& list, const char* group, Method& method, Execution& execution, FileOptions& file) {
-    add(list, group,
+void addMakingAMap(OptionList& list, Method& method, Execution& execution, FileOptions& file) {
+    add(list, "Map",
         choice("--method", "NAME", kMethods, method, "Tangent method for a model without tangents, as in generate."));
-    addRunning(list, execution, "Number of threads; 0: one per core. The output is the same for any number of threads.",
-               file);
+    addRunning(list, execution, file);
 }
 
 void addSync(OptionList& list, bool& sync) {
@@ -134,7 +135,7 @@ void addSync(OptionList& list, bool& sync) {
                 "runs on many small files."));
 }
 
-void addRunning(OptionList& list, Execution& execution, HelpText threads_help, FileOptions& file) {
+void addRunning(OptionList& list, Execution& execution, FileOptions& file, HelpText threads_help) {
     addThreads(list, execution, std::move(threads_help));
     addLimits(list, file);
     addSync(list, file.sync);

@@ -37,27 +37,38 @@ inline constexpr const char* kRunning = "Running";
 inline constexpr const char* kReporting = "Reporting";
 
 /// Returns an option that selects the convention of a program for normal maps, by a name of findMapReading.
-Option readingOption(const char* names, MapReading& target, HelpText help);
+Option readingOption(const char* names, std::function<void(const MapReading&)> store, HelpText help);
+inline Option readingOption(const char* names, MapReading& target, HelpText help) {
+    return readingOption(
+        names, [&target](const MapReading& reading) { target = reading; }, std::move(help));
+}
+inline constexpr const char* kThreadsHelp =
+    "Number of threads; 0: one per core. The output is the same for any number of threads.";
 void addAllowExternal(OptionList& list, FileOptions& file);
 void addKeepCoordinates(OptionList& list, FileOptions& file);
-void addThreads(OptionList& list, Execution& execution, HelpText help);
+void addThreads(OptionList& list, Execution& execution, HelpText help = kThreadsHelp);
 /// Adds only the memory limit, for commands that need no importer.
 void addMemoryLimit(OptionList& list, std::uint64_t& memory_limit_bytes);
 void addLimits(OptionList& list, FileOptions& file);
 /// Adds FileOptions::sync, for commands that write.
 void addSync(OptionList& list, bool& sync);
 /// Adds the options for threads, limits and flushing of outputs.
-void addRunning(OptionList& list, Execution& execution, HelpText threads_help, FileOptions& file);
-/// Adds --lengths, for 8-bit maps.
-void addLengths(OptionList& list, const char* group, TexelLengths& lengths);
-/// Adds --alpha, for normal maps with mip levels.
-void addAlpha(OptionList& list, const char* group, MapAlpha& alpha);
-/// Adds --dds-header, for DDS outputs.
-void addDdsHeader(OptionList& list, const char* group, DdsHeader& header);
-/// Adds the option that selects the primitives of a model that use a map.
-void addMaterialOfMap(OptionList& list, std::string& material);
-/// Adds the last options of commands that compute an image from a model: the tangent method for models without tangents
-/// (in `group`), threads, limits and flushing.
-void addMakingAnImage(OptionList& list, const char* group, Method& method, Execution& execution, FileOptions& file);
+void addRunning(OptionList& list, Execution& execution, FileOptions& file, HelpText threads_help = kThreadsHelp);
+/// Returns --weld-distance.
+Option weldOption(float& distance, HelpText help);
+/// Returns --lengths, for 8-bit maps.
+Option lengthsOption(TexelLengths& lengths);
+/// Returns --alpha, for normal maps with mip levels.
+Option alphaOption(MapAlpha& alpha);
+/// Returns --dds-header, for DDS outputs.
+Option ddsHeaderOption(DdsHeader& header);
+/// Returns the option that selects the primitives of a model that use a map.
+Option materialOfMapOption(std::string& material);
+inline Option dryRunOption(bool& is_dry_run) {
+    return flag("--dry-run", is_dry_run, "Do everything except writing the output.");
+}
+/// Adds the last options of commands that compute a map from a model: the tangent method for models without tangents,
+/// threads, limits and flushing.
+void addMakingAMap(OptionList& list, Method& method, Execution& execution, FileOptions& file);
 
 }  // namespace tspace::options

@@ -72,6 +72,10 @@ using OptionList = std::vector<Option>;
 
 /// Appends an option under the heading `group` in help.
 Option& add(OptionList& list, const char* group, Option option);
+/// Returns a function that appends an option under this heading.
+inline auto adder(OptionList& list, const char* group) {
+    return [&list, group](Option option) -> Option& { return add(list, group, std::move(option)); };
+}
 
 /// Passes a value ("" for a flag) to an option, and appends it to `given`. Returns an error message or an empty string.
 std::string giveValue(const Option& option, const std::string& value, Given& given);
