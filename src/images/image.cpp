@@ -127,7 +127,23 @@ Codec exrCodec() {
 #endif
 }
 
-const char* whyUnknown();
+/// Why an image of an unknown format is not read: it has none of the formats that this build reads.
+constexpr const char* kUnknown =
+    "the image is neither "
+#ifdef TSPACE_HAS_IMAGES
+    "PNG, JPEG, "
+#endif
+#ifdef TSPACE_HAS_WEBP
+    "WebP, "
+#endif
+#ifdef TSPACE_HAS_OPENEXR
+    "EXR, "
+#endif
+#ifdef TSPACE_SMALL
+    "KTX2 nor DDS";
+#else
+    "KTX2, DDS nor TGA";
+#endif
 
 Codec codecOf(ImageFormat format) {
 #ifdef TSPACE_HAS_IMAGES
@@ -167,26 +183,7 @@ Codec codecOf(ImageFormat format) {
         case ImageFormat::unknown:
             break;
     }
-    return {"", "", whyUnknown()};
-}
-
-/// Returns why an image of an unknown format is not read: it has none of the formats that this build reads.
-const char* whyUnknown() {
-    static const std::string text = [] {
-        std::vector<std::string> names;
-        for (const ImageFormat format : {ImageFormat::png, ImageFormat::jpeg, ImageFormat::webp, ImageFormat::exr,
-                                         ImageFormat::ktx2, ImageFormat::dds, ImageFormat::tga}) {
-#ifdef TSPACE_SMALL
-            if (format == ImageFormat::tga) continue;
-#endif
-            if (const Codec codec = codecOf(format); codec.decode != nullptr) names.emplace_back(codec.name);
-        }
-        std::string list = "the image is neither ";
-        for (std::size_t i = 0; i < names.size(); ++i)
-            list += (i == 0 ? "" : i + 1 == names.size() ? " nor " : ", ") + names[i];
-        return list;
-    }();
-    return text.c_str();
+    return {"", "", kUnknown};
 }
 
 }  // namespace
