@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "core/mesh/pools/unit_lattice.h"
+#include "model/gltf/component_rules.h"
 #include "model/gltf/compression_extensions.h"
 #include "model/gltf/gather_elements.h"
 #include "model/gltf/packed_layout.h"
-#include "model/gltf/unsigned_normals.h"
 
 namespace tspace::gltf {
 

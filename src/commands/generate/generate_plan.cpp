@@ -14,10 +14,10 @@
 
 #include "commands/generate/edit_attributes.h"
 #include "core/base/vec_math.h"
+#include "model/gltf/component_rules.h"
 #include "model/gltf/material_needs.h"
 #include "model/gltf/packed_frames.h"
 #include "model/gltf/read_scene.h"
-#include "model/gltf/unsigned_normals.h"
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {

@@ -23,19 +23,29 @@ constexpr std::size_t kMaxZeroElements = std::size_t{1} << 24;
     failFile(ErrorCode::invalidFile, std::move(message), std::move(place));
 }
 
+/// Properties of a component type.
+struct Component {
+    const char *name = "", *normalized_name = "";  ///< as in formatName
+    std::size_t byte_count = 0;
+    float largest = 0;  ///< value that normalized integers decode to 1
+};
+constexpr std::uint32_t kFirstType = 5120;
+constexpr std::array<Component, 7> kComponents = {{{"int8", "snorm8", 1, 127},
+                                                   {"uint8", "unorm8", 1, 255},
+                                                   {"int16", "snorm16", 2, 32767},
+                                                   {"uint16", "unorm16", 2, 65535},
+                                                   {},  // does not exist
+                                                   {"uint32", "unorm32", 4, 4294967295.0f},
+                                                   {"float", "float", 4, 1}}};
+
+const Component& propertiesOf(ComponentType type) { return kComponents[static_cast<std::uint32_t>(type) - kFirstType]; }
+
 ComponentType readComponentType(const Json& object, const std::string& place) {
     const std::uint64_t value = readWhole(object, "componentType", place);
-    switch (value) {
-        case 5120:
-        case 5121:
-        case 5122:
-        case 5123:
-        case 5125:
-        case 5126:
-            return static_cast<ComponentType>(value);
-        default:
-            failAt("the component type " + std::to_string(value) + " does not exist", join(place, "componentType"));
-    }
+    const bool is_in_table = value >= kFirstType && value - kFirstType < kComponents.size();
+    if (!is_in_table || kComponents[value - kFirstType].byte_count == 0)
+        failAt("the component type " + std::to_string(value) + " does not exist", join(place, "componentType"));
+    return static_cast<ComponentType>(value);
 }
 
 struct Shape {
@@ -96,9 +106,7 @@ SparsePart readSparse(const Document& document, const Json& object, const Access
         failAt("the members 'indices' or 'values' of 'sparse' are missing", place);
     const std::string index_place = join(place, "indices"), value_place = join(place, "values");
     sparse.index_type = readComponentType(*indices, index_place);
-    const bool is_unsigned = sparse.index_type == ComponentType::u8 || sparse.index_type == ComponentType::u16 ||
-                             sparse.index_type == ComponentType::u32;
-    if (!is_unsigned)
+    if (!isUnsigned(sparse.index_type))
         failAt("sparse indices must have an unsigned integer component type", join(index_place, "componentType"));
     sparse.index_view = viewIndex(document, *indices, index_place);
     sparse.index_offset = readSize(*indices, "byteOffset", index_place, 0);
@@ -218,29 +226,26 @@ std::uint32_t widen(const ElementView& elements, std::span<std::uint32_t> number
 /// Decodes a component to float with the formulas of the specification, such as f = max(c / 127, -1); if not
 /// normalized, returns the integer value.
 float componentAt(const std::uint8_t* bytes, ComponentType type, bool normalized) {
+    float value = 0;
     switch (type) {
-        case ComponentType::i8: {
-            const auto value = static_cast<float>(loadLittleEndian<std::int8_t>(bytes));
-            return normalized ? std::max(value / 127.0f, -1.0f) : value;
-        }
-        case ComponentType::u8: {
-            const auto value = static_cast<float>(bytes[0]);
-            return normalized ? value / 255.0f : value;
-        }
-        case ComponentType::i16: {
-            const auto value = static_cast<float>(loadLittleEndian<std::int16_t>(bytes));
-            return normalized ? std::max(value / 32767.0f, -1.0f) : value;
-        }
-        case ComponentType::u16: {
-            const auto value = static_cast<float>(loadLittleEndian<std::uint16_t>(bytes));
-            return normalized ? value / 65535.0f : value;
-        }
+        case ComponentType::i8:
+            value = static_cast<float>(loadLittleEndian<std::int8_t>(bytes));
+            break;
+        case ComponentType::u8:
+            value = static_cast<float>(bytes[0]);
+            break;
+        case ComponentType::i16:
+            value = static_cast<float>(loadLittleEndian<std::int16_t>(bytes));
+            break;
+        case ComponentType::u16:
+            value = static_cast<float>(loadLittleEndian<std::uint16_t>(bytes));
+            break;
         case ComponentType::u32:
             return static_cast<float>(loadLittleEndian<std::uint32_t>(bytes));
         case ComponentType::f32:
-            break;
+            return loadLittleEndian<float>(bytes);
     }
-    return loadLittleEndian<float>(bytes);
+    return normalized ? std::max(value / propertiesOf(type).largest, -1.0f) : value;
 }
 
 template <class Vec>
@@ -272,18 +277,7 @@ std::vector<Vec> decodeVec(const Document& document, const Accessor& accessor, c
 
 }  // namespace
 
-std::size_t bytesOf(ComponentType type) {
-    switch (type) {
-        case ComponentType::i8:
-        case ComponentType::u8:
-            return 1;
-        case ComponentType::i16:
-        case ComponentType::u16:
-            return 2;
-        default:
-            return 4;
-    }
-}
+std::size_t bytesOf(ComponentType type) { return propertiesOf(type).byte_count; }
 
 BufferView readBufferView(const Document& document, std::size_t index) {
     const std::string place = join("/bufferViews", index);
@@ -346,16 +340,7 @@ Accessor readAccessor(const Document& document, std::size_t index) {
 double stepOf(const Accessor& accessor) {
     if (accessor.component == ComponentType::f32) return 0;
     if (!accessor.normalized) return 1;
-    switch (accessor.component) {
-        case ComponentType::i8:
-            return 1.0 / 127;
-        case ComponentType::u8:
-            return 1.0 / 255;
-        case ComponentType::i16:
-            return 1.0 / 32767;
-        default:
-            return 1.0 / 65535;
-    }
+    return 1.0 / static_cast<double>(propertiesOf(accessor.component).largest);
 }
 
 bool hasData(const Document& document, const Accessor& accessor) {
@@ -394,9 +379,7 @@ std::vector<Vec4> decodeVec4(const Document& document, const Accessor& accessor,
 
 std::vector<std::uint32_t> decodeIndices(const Document& document, const Accessor& accessor, std::size_t vertex_count,
                                          const std::string& place) {
-    const bool is_unsigned = accessor.component == ComponentType::u8 || accessor.component == ComponentType::u16 ||
-                             accessor.component == ComponentType::u32;
-    if (!is_unsigned || accessor.component_count != 1 || accessor.normalized) {
+    if (!isUnsigned(accessor.component) || accessor.component_count != 1 || accessor.normalized) {
         failAt("indices must be unsigned scalars, not " + formatName(accessor), place);
     }
     Bytes packed;
@@ -420,27 +403,8 @@ std::vector<std::uint32_t> decodeIndices(const Document& document, const Accesso
 }
 
 std::string formatName(const Accessor& accessor) {
-    std::string name;
-    switch (accessor.component) {
-        case ComponentType::i8:
-            name = accessor.normalized ? "snorm8" : "int8";
-            break;
-        case ComponentType::u8:
-            name = accessor.normalized ? "unorm8" : "uint8";
-            break;
-        case ComponentType::i16:
-            name = accessor.normalized ? "snorm16" : "int16";
-            break;
-        case ComponentType::u16:
-            name = accessor.normalized ? "unorm16" : "uint16";
-            break;
-        case ComponentType::u32:
-            name = accessor.normalized ? "unorm32" : "uint32";
-            break;
-        case ComponentType::f32:
-            name = "float";
-            break;
-    }
+    const Component& component = propertiesOf(accessor.component);
+    const std::string name = accessor.normalized ? component.normalized_name : component.name;
     if (accessor.component_count == 0) return name + " with an unknown accessor type";
     if (accessor.component_count == 1) return name;
     // Examples of names are "snorm16x3" and, without an x, "float3".

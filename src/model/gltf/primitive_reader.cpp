@@ -11,8 +11,8 @@
 #include "core/base/numbers.h"
 #include "core/base/sort.h"
 #include "core/base/vec_math.h"
+#include "model/gltf/component_rules.h"
 #include "model/gltf/packed_layout.h"
-#include "model/gltf/unsigned_normals.h"
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {

@@ -8,11 +8,11 @@
 #include "core/base/numbers.h"
 #include "images/image.h"
 #include "model/gltf/accessor.h"
+#include "model/gltf/component_rules.h"
 #include "model/gltf/document.h"
 #include "model/gltf/material_needs.h"
 #include "model/gltf/nodes.h"
 #include "model/gltf/packed_frames.h"
-#include "model/gltf/unsigned_normals.h"
 #include "model/io/file_error.h"
 #include "model/io/uri.h"
 
@@ -36,28 +36,6 @@ std::string componentText(const Accessor& accessor) {
     return std::string(accessor.normalized ? "normalized " : "") + std::to_string(8 * bytesOf(accessor.component)) +
            "-bit " + (is_signed ? "signed" : "unsigned") + " integers" +
            (accessor.normalized ? "" : " that are not normalized");
-}
-
-/// Returns nullopt if glTF, with or without KHR_mesh_quantization, allows the component type of an attribute. NORMAL
-/// and TANGENT are examined elsewhere.
-std::optional<SceneComponentFault> componentFault(const Accessor& accessor, const std::string& name) {
-    const ComponentType type = accessor.component;
-    const bool is_short_unsigned = type == ComponentType::u8 || type == ComponentType::u16;
-    bool is_allowed = true;
-    const char* allowed = "floats or normalized unsigned integers of 8 or 16 bits";
-    if (name.starts_with("COLOR_") || name.starts_with("WEIGHTS_")) {
-        is_allowed = type == ComponentType::f32 || (is_short_unsigned && accessor.normalized);
-    } else if (name.starts_with("JOINTS_")) {
-        is_allowed = is_short_unsigned && !accessor.normalized;
-        allowed = "unsigned integers of 8 or 16 bits that are not normalized";
-    } else if (name.starts_with("TEXCOORD_")) {
-        is_allowed = type != ComponentType::u32;
-    } else if (name == "POSITION") {
-        is_allowed = type != ComponentType::u32;
-        allowed = "floats";
-    }
-    if (is_allowed) return {};
-    return SceneComponentFault{name, componentText(accessor), allowed, accessor.count};
 }
 
 /// Reads the first inverse bind matrix of a skin; the identity if there is none, as the specification requires.
@@ -344,17 +322,7 @@ class PrimitiveLoader {
         for (const AttributeFault& fault : primitive.attribute_faults)
             result.attribute_faults.push_back(
                 {fault.name, fault.target, fault.why, fault.repair, primitive.vertex_count});
-        if (areUnsigned(document_, primitive.find("NORMAL")))
-            result.attribute_faults.push_back(
-                {.name = "NORMAL",
-                 .why =
-                     "are unsigned integers, which glTF does not allow. They are used unchanged, so no normal points "
-                     "toward -x, -y or -z; if they encode (n + 1) / 2, all of them are wrong",
-                 .vertex_count = primitive.vertex_count});
-        for (const auto& [name, accessor] : primitive.attributes) {
-            if (auto fault = componentFault(readAccessor(document_, accessor), name))
-                result.component_faults.push_back(*std::move(fault));
-        }
+        addComponentFaults(primitive, result);
         result.tangents_not_read = result.tangents.empty() && document_.may_hide_tangents;
         for (std::size_t i = 0; i < primitive.targets.size(); ++i) {
             const AttributeList& list = primitive.targets[i];
@@ -370,6 +338,24 @@ class PrimitiveLoader {
     }
 
   private:
+    void addComponentFaults(const Primitive& primitive, ScenePrimitive& result) const {
+        for (const auto& [name, index] : primitive.attributes) {
+            const Accessor accessor = readAccessor(document_, index);
+            const ComponentRule* const rule = violatedRule(accessor, name);
+            if (rule == nullptr) continue;
+            if (name != "NORMAL") {
+                result.component_faults.push_back({name, componentText(accessor), rule->allowed, accessor.count});
+                continue;
+            }
+            result.attribute_faults.push_back(
+                {.name = name,
+                 .why =
+                     "are unsigned integers, which glTF does not allow. They are used unchanged, so no normal points "
+                     "toward -x, -y or -z; if they encode (n + 1) / 2, all of them are wrong",
+                 .vertex_count = primitive.vertex_count});
+        }
+    }
+
     void loadAttributes(const Primitive& primitive, ScenePrimitive& result) {
         const AttributeList& list = primitive.attributes;
         const std::string place = join(result.place, "attributes");

@@ -19,6 +19,9 @@ enum class ComponentType : std::uint32_t { i8 = 5120, u8 = 5121, i16 = 5122, u16
 
 /// Returns the size of a component: 1, 2 or 4 bytes.
 std::size_t bytesOf(ComponentType type);
+inline bool isUnsigned(ComponentType type) {
+    return type == ComponentType::u8 || type == ComponentType::u16 || type == ComponentType::u32;
+}
 
 // Codec of KHR_draco_mesh_compression, using the library Draco. Independent of JSON.
 
