@@ -89,9 +89,7 @@ void checkRange(const BufferView& view, std::size_t offset, std::size_t count, s
 }
 
 std::size_t viewIndex(const Document& document, const Json& object, const std::string& place) {
-    const auto index = readIndex(object, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
-    if (!index) failAt("the member 'bufferView' is missing", place);
-    return *index;
+    return requireIndex(object, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
 }
 
 SparsePart readSparse(const Document& document, const Json& object, const Accessor& accessor,
@@ -283,9 +281,7 @@ BufferView readBufferView(const Document& document, std::size_t index) {
     const std::string place = join("/bufferViews", index);
     const Json& object = rootArray(document, "bufferViews")[index];
     BufferView view;
-    const auto buffer = readIndex(object, "buffer", place, document.buffers.size(), "buffer");
-    if (!buffer) failAt("the member 'buffer' is missing", place);
-    view.buffer = *buffer;
+    view.buffer = requireIndex(object, "buffer", place, document.buffers.size(), "buffer");
     view.begin = readSize(object, "byteOffset", place, 0);
     view.byte_count = readSize(object, "byteLength", place);
     view.stride = readSize(object, "byteStride", place, 0);

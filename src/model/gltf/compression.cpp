@@ -178,14 +178,8 @@ class Packer {
 
     std::size_t storeIndices(const std::vector<const Primitive*>& group, const DracoMesh& mesh) {
         const std::optional<std::size_t> old = group[0]->indices;
-        ElementData data;
-        data.component = mesh.point_count <= 0xffff ? ComponentType::u16 : ComponentType::u32;
-        if (old) data.component = readAccessor(document_, *old).component;
-        data.element_bytes = gltf::bytesOf(data.component);
-        data.count = mesh.corners.size();
-        data.bytes.resize(data.count * data.element_bytes);
-        for (std::size_t i = 0; i < data.count; ++i)
-            std::memcpy(data.bytes.data() + i * data.element_bytes, &mesh.corners[i], data.element_bytes);
+        const ComponentType narrowest = old ? readAccessor(document_, *old).component : ComponentType::u16;
+        ElementData data = indexElements(std::vector(mesh.corners), narrowest, mesh.point_count);
         data.in_draco = true;
         const bool alone = old && editor_.accessorUses(*old) == group.size();
         const std::size_t stored = editor_.store(std::move(data), alone ? old : std::nullopt);
@@ -242,10 +236,7 @@ void unpackMeshopt(Document& document, Editor& editor) {
     }
     for (std::size_t i = 0; i < document.buffers.size(); ++i) {
         Json& buffer = document.json["buffers"][i];
-        const char* mark = meshoptExtension(buffer);
-        if (mark == nullptr) continue;
-        buffer["extensions"].erase(mark);
-        if (buffer["extensions"].empty()) buffer.erase("extensions");
+        if (const char* mark = meshoptExtension(buffer)) eraseExtension(buffer, mark);
     }
     for (const char* name : {kExtMeshopt, kKhrMeshopt}) dropExtension(document, name);
 }
@@ -258,8 +249,7 @@ void unpackDraco(Document& document, Editor& editor) {
             const Json* extension = findExtension(primitive, kDraco);
             if (extension == nullptr) continue;
             editor.releaseView((*extension)["bufferView"].get<std::size_t>());
-            primitive["extensions"].erase(kDraco);
-            if (primitive["extensions"].empty()) primitive.erase("extensions");
+            eraseExtension(primitive, kDraco);
             if (primitive.contains("indices")) indices.insert(primitive["indices"].get<std::size_t>());
         }
     }

@@ -225,10 +225,7 @@ void joinBuffers(Document& document) {
     }
     entries[0].erase("uri");
     // The mark `fallback` allows readers of the extension to skip a buffer. It would be wrong for the joined buffer.
-    if (const char* mark = meshoptExtension(entries[0])) {
-        entries[0]["extensions"].erase(mark);
-        if (entries[0]["extensions"].empty()) entries[0].erase("extensions");
-    }
+    if (const char* mark = meshoptExtension(entries[0])) eraseExtension(entries[0], mark);
     entries[0]["byteLength"] = bin.bytes.size();
     for (std::size_t i = 0; i < old.size(); ++i) {
         if (old[i].hasStoredBytes()) continue;

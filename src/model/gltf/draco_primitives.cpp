@@ -53,25 +53,20 @@ Packed readPacked(const Document& document, const Json& primitive, std::size_t m
     const std::string place = packed.place();
     const Json& extension = *findExtension(primitive, kDraco);
     const std::size_t accessor_count = rootArray(document, "accessors").size();
-    const auto view =
-        readIndex(extension, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
-    if (!view) failFile(ErrorCode::invalidFile, "the member 'bufferView' is missing", place);
-    packed.view = *view;
+    packed.view =
+        requireIndex(extension, "bufferView", place, rootArray(document, "bufferViews").size(), "buffer view");
     packed.mode = readSize(primitive, "mode", packed.primitivePlace(), kTriangles);
     if (packed.mode < kTriangles)
         failFile(ErrorCode::invalidFile, "the Draco extension can only be used for triangles, not for points or lines",
                  join(packed.primitivePlace(), "mode"));
     packed.indices = readIndex(primitive, "indices", packed.primitivePlace(), accessor_count, "accessor");
-    const Json* ids = readObject(extension, "attributes", place);
-    if (ids == nullptr) failFile(ErrorCode::invalidFile, "the member 'attributes' is missing", place);
-    const Json* attributes = readObject(primitive, "attributes", packed.primitivePlace());
-    if (attributes == nullptr)
-        failFile(ErrorCode::invalidFile, "the member 'attributes' is missing", packed.primitivePlace());
-    for (const auto& [name, id] : ids->items()) {
+    const Json& ids = requireObject(extension, "attributes", place);
+    const Json& attributes = requireObject(primitive, "attributes", packed.primitivePlace());
+    for (const auto& [name, id] : ids.items()) {
         const auto accessor =
-            readIndex(*attributes, name.c_str(), packed.primitivePlace() + "/attributes", accessor_count, "accessor");
+            readIndex(attributes, name.c_str(), packed.primitivePlace() + "/attributes", accessor_count, "accessor");
         if (!accessor) continue;
-        const std::uint64_t number = readWhole(*ids, name.c_str(), place + "/attributes");
+        const std::uint64_t number = readWhole(ids, name.c_str(), place + "/attributes");
         if (number > 0xffffffffu)
             failFile(ErrorCode::invalidFile, "the Draco id is out of range", join(place + "/attributes", name));
         packed.attributes.push_back({name, *accessor, static_cast<std::uint32_t>(number)});
@@ -296,7 +291,7 @@ class Encoder {
         const Packed& first = group[0];
         if (!dracoMissing().empty()) {
             // Uncompressed data must exist, because the edit was possible; the compressed copy is outdated.
-            for (const Packed& packed : group) dropExtension(primitiveJson(document_, packed));
+            for (const Packed& packed : group) eraseExtension(primitiveJson(document_, packed), kDraco);
             return;
         }
         DracoMesh mesh;
@@ -323,11 +318,6 @@ class Encoder {
             extension["bufferView"] = view;
             extension["attributes"] = ids;
         }
-    }
-
-    static void dropExtension(Json& primitive) {
-        primitive["extensions"].erase(kDraco);
-        if (primitive["extensions"].empty()) primitive.erase("extensions");
     }
 
     /// Returns whether an attribute is encoded: attributes without a view (which exist only in Draco data), attributes

@@ -13,6 +13,16 @@
 
 namespace tspace::gltf {
 
+namespace {
+
+/// Sets a member; removes it if the value is null.
+void setOrErase(Json& object, const char* key, Json value) {
+    if (value.is_null()) return object.erase(key);
+    object[key] = std::move(value);
+}
+
+}  // namespace
+
 Editor::Editor(Document& document, std::string new_file_name)
     : document_(document),
       new_file_name_(std::move(new_file_name)),
@@ -125,13 +135,8 @@ void Editor::overwrite(const Accessor& accessor, const Bytes& elements) {
         if (accessor.component == ComponentType::f32 && json.contains(key)) *bound = json[key];
     }
     renewBounds(data);
-    for (const auto& [key, bound] : {std::pair{"max", &data.max}, std::pair{"min", &data.min}}) {
-        if (bound->is_null()) {
-            json.erase(key);
-        } else {
-            json[key] = *bound;
-        }
-    }
+    setOrErase(json, "max", data.max);
+    setOrErase(json, "min", data.min);
     buffer.edited = true;
     changed_ = true;
     changed_accessors_.insert(accessor.index);
@@ -208,16 +213,8 @@ std::size_t Editor::storeView(ElementData& data, const Form& form) {
     view["buffer"] = buffer;
     view["byteOffset"] = begin;
     view["byteLength"] = count * stride;
-    if (stride != data.element_bytes) {
-        view["byteStride"] = stride;
-    } else {
-        view.erase("byteStride");
-    }
-    if (data.target != kNoTarget) {
-        view["target"] = data.target;
-    } else {
-        view.erase("target");
-    }
+    setOrErase(view, "byteStride", stride != data.element_bytes ? Json(stride) : Json());
+    setOrErase(view, "target", data.target != kNoTarget ? Json(data.target) : Json());
     if (packs) {
         to_encode_[index] = {form.meshopt, data.filter, std::move(data.unfiltered), data.target == kIndexTarget,
                              stride};
@@ -228,18 +225,7 @@ std::size_t Editor::storeView(ElementData& data, const Form& form) {
 /// Stores elements and returns the member `sparse` of their accessor.
 Json Editor::storeSparse(ElementData& data) {
     const std::vector<std::uint32_t>& places = *data.places;
-    ElementData indices;
-    indices.component = places.back() <= 0xffff ? ComponentType::u16 : ComponentType::u32;
-    indices.element_bytes = bytesOf(indices.component);
-    indices.bytes.resize(places.size() * indices.element_bytes);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        std::uint8_t* const to = indices.bytes.data() + i * indices.element_bytes;
-        if (indices.element_bytes == 2) {
-            storeLittleEndian(static_cast<std::uint16_t>(places[i]), to);
-        } else {
-            storeLittleEndian(places[i], to);
-        }
-    }
+    ElementData indices = indexElements(std::vector(places), ComponentType::u16, places.back());
     indices.target = data.target = kNoTarget;
     Json sparse = Json::object();
     sparse["count"] = places.size();
@@ -278,32 +264,15 @@ std::size_t Editor::store(ElementData&& data, std::optional<std::size_t> replace
         document_.elements.erase(index);
     }
     Json& accessor = accessors[index];
-    if (view) {
-        accessor["bufferView"] = *view;
-    } else {
-        accessor.erase("bufferView");
-    }
+    setOrErase(accessor, "bufferView", view ? Json(*view) : Json());
     accessor.erase("byteOffset");
     accessor["componentType"] = static_cast<std::uint32_t>(data.component);
-    if (data.normalized) {
-        accessor["normalized"] = true;
-    } else {
-        accessor.erase("normalized");
-    }
+    setOrErase(accessor, "normalized", data.normalized ? Json(true) : Json());
     accessor["count"] = data.count;
     accessor["type"] = data.type;
-    for (const auto& [key, value] : {std::pair{"max", &data.max}, std::pair{"min", &data.min}}) {
-        if (value->is_null()) {
-            accessor.erase(key);
-        } else {
-            accessor[key] = *value;
-        }
-    }
-    if (sparse.is_null()) {
-        accessor.erase("sparse");
-    } else {
-        accessor["sparse"] = std::move(sparse);
-    }
+    setOrErase(accessor, "max", data.max);
+    setOrErase(accessor, "min", data.min);
+    setOrErase(accessor, "sparse", std::move(sparse));
     return index;
 }
 
@@ -366,8 +335,7 @@ void Editor::unpackView(std::size_t index) {
         document_.json["bufferViews"][index]["byteOffset"] = begin;
     }
     Json& view = document_.json["bufferViews"][index];
-    view["extensions"].erase(packed.extension);
-    if (view["extensions"].empty()) view.erase("extensions");
+    eraseExtension(view, packed.extension);
     changed_ = true;
 }
 

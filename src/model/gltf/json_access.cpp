@@ -18,6 +18,10 @@ namespace {
     failFile(ErrorCode::invalidFile, std::move(message), std::move(place));
 }
 
+[[noreturn]] void failMissing(const char* key, const std::string& place) {
+    failJson(std::string("the member '") + key + "' is missing", place);
+}
+
 /// Charges the memory of values to the budget of the file.
 class BudgetMemory final : public JsonMemory {
   public:
@@ -88,7 +92,7 @@ std::uint64_t readWhole(const Json& object, const char* key, const std::string& 
     const Json* value = findMember(object, key);
     if (value == nullptr) {
         if (fallback) return *fallback;
-        failJson(std::string("the member '") + key + "' is missing", place);
+        failMissing(key, place);
     }
     const auto number = wholeNumber(*value);
     if (!number) failJson(std::string("'") + key + "' is not a non-negative integer", join(place, key));
@@ -176,6 +180,24 @@ const Json* readObject(const Json& object, const char* key, const std::string& p
     if (value != nullptr && !value->is_object())
         failJson(std::string("'") + key + "' is not an object", join(place, key));
     return value;
+}
+
+std::size_t requireIndex(const Json& object, const char* key, const std::string& place, std::size_t limit,
+                         const char* what) {
+    const auto index = readIndex(object, key, place, limit, what);
+    if (!index) failMissing(key, place);
+    return *index;
+}
+
+const Json& requireObject(const Json& object, const char* key, const std::string& place) {
+    const Json* value = readObject(object, key, place);
+    if (value == nullptr) failMissing(key, place);
+    return *value;
+}
+
+void eraseExtension(Json& object, const char* name) {
+    object["extensions"].erase(name);
+    if (object["extensions"].empty()) object.erase("extensions");
 }
 
 const Json* findExtension(const Json& object, const char* name) {

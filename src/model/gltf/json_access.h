@@ -68,6 +68,12 @@ const Json& readArray(const Json& object, const char* key, const std::string& pl
 /// Returns an object member, or null if absent.
 const Json* readObject(const Json& object, const char* key, const std::string& place);
 
+/// Return a member that must exist, and fail if it does not.
+std::size_t requireIndex(const Json& object, const char* key, const std::string& place, std::size_t limit,
+                         const char* what);
+const Json& requireObject(const Json& object, const char* key, const std::string& place);
+/// Removes an extension, and the member "extensions" if it becomes empty.
+void eraseExtension(Json& object, const char* name);
 /// Returns object.extensions.<name>, or null.
 const Json* findExtension(const Json& object, const char* name);
 

@@ -50,9 +50,7 @@ std::string placeOf(std::size_t view, const char* extension) {
 
 /// Reads the range of the compressed bytes, which must be inside a buffer that has data.
 void readRange(const Document& document, const Json& object, const std::string& place, MeshoptView& view) {
-    const auto buffer = readIndex(object, "buffer", place, document.buffers.size(), "buffer");
-    if (!buffer) failFile(ErrorCode::invalidFile, "the member 'buffer' is missing", place);
-    view.buffer = *buffer;
+    view.buffer = requireIndex(object, "buffer", place, document.buffers.size(), "buffer");
     view.begin = readSize(object, "byteOffset", place, 0);
     view.byte_count = readSize(object, "byteLength", place);
     const Buffer& data = document.buffers[view.buffer];

@@ -169,9 +169,8 @@ Primitive readPrimitive(const Document& document, const Json& object, std::uint3
     primitive.mode = static_cast<Mode>(mode);
     primitive.indices = readIndex(object, "indices", place, accessor_count, "accessor");
     primitive.material = readIndex(object, "material", place, rootArray(document, "materials").size(), "material");
-    const Json* attributes = readObject(object, "attributes", place);
-    if (attributes == nullptr) failFile(ErrorCode::invalidFile, "the member 'attributes' is missing", place);
-    primitive.attributes = readAttributes(*attributes, join(place, "attributes"), accessor_count);
+    primitive.attributes =
+        readAttributes(requireObject(object, "attributes", place), join(place, "attributes"), accessor_count);
     const Json& targets = readArray(object, "targets", place);
     for (std::size_t i = 0; i < targets.size(); ++i) {
         primitive.targets.push_back(readAttributes(targets[i], join(join(place, "targets"), i), accessor_count));
