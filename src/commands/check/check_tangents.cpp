@@ -13,6 +13,7 @@
 #include "core/base/vec_math.h"
 #include "core/mesh/quads/quads.h"
 #include "core/mesh/surface/uvs.h"
+#include "model/io/file_error.h"
 
 namespace tspace {
 namespace {
@@ -45,7 +46,7 @@ void unifyQuadOrientations(const TangentView& mesh, std::span<const std::uint32_
     }
 }
 
-Result<QuadReading> cutQuads(const TangentView& mesh, const QuadFaces& faces) {
+QuadReading cutQuads(const TangentView& mesh, const QuadFaces& faces) {
     std::vector<std::uint32_t> vertices;
     vertices.reserve(faces.corners.size());
     for (const std::uint32_t corner : faces.corners) vertices.push_back(mesh.corners[corner]);
@@ -54,32 +55,25 @@ Result<QuadReading> cutQuads(const TangentView& mesh, const QuadFaces& faces) {
     polygons.uvs = mesh.uvs;
     polygons.indices = IndexView(std::span<const std::uint32_t>(vertices));
     polygons.face_sizes = faces.sizes;
-    const Result<Triangulation> cut = triangulate(polygons);
-    if (!cut) return cut.error();
+    const Triangulation cut = valueOrThrow(triangulate(polygons));
     QuadReading reading;
-    reading.corners.reserve(cut->corners.size());
-    for (const std::uint32_t corner : cut->corners) reading.corners.push_back(vertices[corner]);
+    reading.corners.reserve(cut.corners.size());
+    for (const std::uint32_t corner : cut.corners) reading.corners.push_back(vertices[corner]);
     TangentView other = mesh;
     other.corners = reading.corners;
     reading.surface = describeSurface(other);
-    unifyQuadOrientations(other, cut->faces, reading.surface);
+    unifyQuadOrientations(other, cut.faces, reading.surface);
     return reading;
 }
 
 }  // namespace
 
-Result<std::optional<QuadReading>> findQuads(const TangentView& mesh, const FrameHealth& health,
-                                             const CheckOptions& options) {
-    const std::optional<QuadReading> none;
+std::optional<QuadReading> findQuads(const TangentView& mesh, const FrameHealth& health, const CheckOptions& options) {
     const bool try_quads = options.faces == Faces::quads || (options.faces == Faces::automatic && hasFaults(health));
-    if (!try_quads || mesh.normals.empty() || mesh.uvs.empty()) return none;
-    const Result<QuadFaces> faces =
-        chooseFaces(mesh.triangles(), mesh.tangents, false, options.faces, {.thread_count = 1});
-    if (!faces) return faces.error();
-    if (faces->quad_count == 0) return none;
-    Result<QuadReading> reading = cutQuads(mesh, *faces);
-    if (!reading) return std::move(reading).error();
-    return std::optional<QuadReading>(*std::move(reading));
+    if (!try_quads || mesh.normals.empty() || mesh.uvs.empty()) return {};
+    const QuadFaces faces =
+        valueOrThrow(chooseFaces(mesh.triangles(), mesh.tangents, false, options.faces, {.thread_count = 1}));
+    return faces.quad_count == 0 ? std::optional<QuadReading>() : cutQuads(mesh, faces);
 }
 
 namespace {
@@ -206,21 +200,20 @@ class Search {
     Search(const PrimitiveFacts& facts, const Faults& now) : facts_(facts), now_(now) {}
 
     /// Returns whether the interpretation explains the tangents; if so, fills `found`.
-    Result<bool> test(UvReading&& reading, bool is_own_set, OtherReading& found) const {
+    bool test(UvReading&& reading, bool is_own_set, OtherReading& found) const {
         if (reading.uvs.empty()) return false;
         TangentView mesh = facts_.mesh;
         mesh.uvs = reading.uvs;
         Surface surface = describeSurface(mesh);
         if (coverage(facts_.surface, surface) < kCovered) return false;
-        Result<FrameHealth> health = examineTangents(mesh, surface, facts_.options);
-        if (!health) return health.error();
-        const Faults with_other = faultsOf(*health, surface);
-        const bool signs_fit = with_other.signs <= kExplained || (!is_own_set && health->all_signs_wrong);
+        FrameHealth health = examineTangents(mesh, surface, facts_.options);
+        const Faults with_other = faultsOf(health, surface);
+        const bool signs_fit = with_other.signs <= kExplained || (!is_own_set && health.all_signs_wrong);
         if (with_other.directions > kExplained || !signs_fit) return false;
         if (now_.directions <= kClearlyWrong && !(is_own_set && now_.signs > kSomeSigns)) return false;
         found.reading = std::move(reading);
         found.surface = std::move(surface);
-        found.health = *std::move(health);
+        found.health = std::move(health);
         return true;
     }
 
@@ -238,12 +231,11 @@ bool areDirectionsWrong(const FrameHealth& health, const Surface& surface) {
 /// UVs of further textures of the primitive. The test is strict, because coincidences are common. The other UVs must
 /// have area nearly everywhere the own UVs have it. The tangents must follow them nearly everywhere, and clearly not
 /// follow the own UVs. `health`: result for facts.reading. Fails as examineTangents does.
-Result<std::optional<OtherReading>> findOtherReading(const PrimitiveFacts& facts, const FrameHealth& health) {
+std::optional<OtherReading> findOtherReading(const PrimitiveFacts& facts, const FrameHealth& health) {
     const ScenePrimitive& primitive = facts.primitive;
     const Faults now = faultsOf(health, facts.surface);
-    std::optional<OtherReading> none;
     const bool signs_matter = facts.reading.transformed && now.signs > kSomeSigns;
-    if (now.directions <= kClearlyWrong && !signs_matter) return none;
+    if (now.directions <= kClearlyWrong && !signs_matter) return {};
     const Search search(facts, now);
     OtherReading found;
     for (std::size_t i = 0; i <= primitive.uv_sets.size(); ++i) {
@@ -256,20 +248,16 @@ Result<std::optional<OtherReading>> findOtherReading(const PrimitiveFacts& facts
             if (readsLike(reading, primitive, primitive.uses[u])) use = u;
         }
         found.use = use;
-        const Result<bool> fits = search.test(std::move(reading), is_own, found);
-        if (!fits) return fits.error();
-        if (*fits) return std::optional<OtherReading>(std::move(found));
+        if (search.test(std::move(reading), is_own, found)) return found;
     }
     for (std::size_t u = 1; u < primitive.uses.size(); ++u) {
         UvReading reading = readingOf(primitive, primitive.uses[u]);
         if (!reading.transformed) continue;
         const bool is_own = reading.uv_set == facts.reading.uv_set;
         found.use = u;
-        const Result<bool> fits = search.test(std::move(reading), is_own, found);
-        if (!fits) return fits.error();
-        if (*fits) return std::optional<OtherReading>(std::move(found));
+        if (search.test(std::move(reading), is_own, found)) return found;
     }
-    return none;
+    return {};
 }
 
 /// Reports that the tangents fit other UVs. This is an error only if it would be one without the explanation, and if no
@@ -332,26 +320,22 @@ void checkTangentsMissing(PrimitiveFacts& facts) {
 }
 
 /// Replaces the triangles by the quads on which the tangents were computed, if any.
-Result<Done> readOnQuads(PrimitiveFacts& facts, FrameHealth& health) {
-    Result<std::optional<QuadReading>> quads = findQuads(facts.mesh, health, facts.options);
-    if (!quads) return std::move(quads).error();
-    if (!*quads) return Done{};
-    facts.quads = **std::move(quads);
+void readOnQuads(PrimitiveFacts& facts, FrameHealth& health) {
+    std::optional<QuadReading> quads = findQuads(facts.mesh, health, facts.options);
+    if (!quads) return;
+    facts.quads = *std::move(quads);
     facts.mesh.corners = facts.quads.corners;
     facts.surface = facts.quads.surface;
-    Result<FrameHealth> found = examineTangents(facts.mesh, facts.surface, facts.options);
-    if (!found) return std::move(found).error();
-    health = *std::move(found);
-    return Done{};
+    health = examineTangents(facts.mesh, facts.surface, facts.options);
 }
 
 }  // namespace
 
-Result<Done> checkTangents(PrimitiveFacts& facts) {
+void checkTangents(PrimitiveFacts& facts) {
     checkUnreadable(facts);
     if (facts.mesh.tangents.empty()) {
         checkTangentsMissing(facts);
-        return Done{};
+        return;
     }
     Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
     if (facts.primitive.uses.empty() && !facts.primitive.mayHaveAuthoredTangents()) {
@@ -359,40 +343,38 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
         facts.add(FindingCode::tangentsUnused, Severity::note, all, "vertices",
                   {.symptom = "the file is larger than necessary",
                    .cause = "the primitive has tangents, but its material needs none"});
-        return Done{};
+        return;
     }
     if (facts.mesh.normals.empty()) {
-        if (facts.primitive.findFault("NORMAL") != nullptr) return Done{};
+        if (facts.primitive.findFault("NORMAL") != nullptr) return;
         facts.add(FindingCode::tangentsIgnored, Severity::warning, all, "vertices",
                   {.symptom = "the tangents have no effect",
                    .cause = "without normals, glTF requires readers to ignore tangents"});
-        return Done{};
+        return;
     }
-    Result<FrameHealth> health = examineTangents(facts.mesh, facts.surface, facts.options);
-    if (!health) return health.error();
-    if (Result<Done> done = readOnQuads(facts, *health); !done) return done;
-    Result<std::optional<OtherReading>> other = findOtherReading(facts, *health);
-    if (!other) return other.error();
+    FrameHealth health = examineTangents(facts.mesh, facts.surface, facts.options);
+    readOnQuads(facts, health);
+    std::optional<OtherReading> other = findOtherReading(facts, health);
     facts.examined_values = true;
-    facts.faults = std::move(health->faults);
-    facts.wrong_sign_share = health->wrong_sign_share;
-    if (*other) {
+    facts.faults = std::move(health.faults);
+    facts.wrong_sign_share = health.wrong_sign_share;
+    if (other) {
         facts.faults.assign(facts.mesh.positions.size(), 0);
-        addExplanation(facts, *health, **other);
-        *health = std::move((*other)->health);
-        facts.wrong_sign_share = health->wrong_sign_share;
-        facts.reading = std::move((*other)->reading);
-        facts.surface = std::move((*other)->surface);
+        addExplanation(facts, health, *other);
+        health = std::move(other->health);
+        facts.wrong_sign_share = health.wrong_sign_share;
+        facts.reading = std::move(other->reading);
+        facts.surface = std::move(other->surface);
         facts.mesh.uvs = facts.reading.uvs;
-        for (std::size_t v = 0; v < health->faults.size(); ++v) facts.faults[v] |= health->faults[v];
+        for (std::size_t v = 0; v < health.faults.size(); ++v) facts.faults[v] |= health.faults[v];
     }
-    const std::string axes = *other ? std::string() : findOtherAxes(facts, *health);
+    const std::string axes = other ? std::string() : findOtherAxes(facts, health);
     if (!axes.empty()) {
         // All tangents are marked as wrong, because they have one cause: some are close to the correct ones only by
         // chance.
         for (const std::uint32_t vertex : facts.mesh.corners) facts.fault(vertex, FindingCode::directionsWrong);
     }
-    for (Finding& finding : tangentFindings(*health, facts.options)) {
+    for (Finding& finding : tangentFindings(health, facts.options)) {
         if (finding.code == FindingCode::directionsWrong && !axes.empty()) {
             extendCause(finding, "; they fit if the stored vectors are read as (" + axes +
                                      "), so the mesh was rotated to other axes without its tangents");
@@ -402,7 +384,6 @@ Result<Done> checkTangents(PrimitiveFacts& facts) {
             finding.severity = Severity::warning;
         facts.findings.push_back(std::move(finding));
     }
-    return Done{};
 }
 
 }  // namespace tspace

@@ -18,6 +18,7 @@
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/surface.h"
+#include "model/io/file_error.h"
 #include "tspace/tangents.h"
 
 namespace tspace {
@@ -343,13 +344,11 @@ void examineDirections(const TangentView& mesh, const Surface& surface, const Ch
 constexpr double kSettledDeg = 1;
 
 /// Computes one tangent per corner, sanitized as `generate` does it.
-Result<std::vector<Vec4>> expectedTangents(const TangentView& mesh, const TangentOptions& options) {
+std::vector<Vec4> expectedTangents(const TangentView& mesh, const TangentOptions& options) {
     const MeshView view = mesh.triangles();
     std::vector<Vec4> tangents(mesh.corners.size());
-    const Result<TangentReport> made = generateTangents(view, options, {.tangents = tangents});
-    if (!made) return made.error();
-    const Result<SanitizeReport> repaired = sanitizeTangents(view, {}, std::span(tangents));
-    if (!repaired) return repaired.error();
+    valueOrThrow(generateTangents(view, options, {.tangents = tangents}));
+    valueOrThrow(sanitizeTangents(view, {}, std::span(tangents)));
     return tangents;
 }
 
@@ -360,26 +359,23 @@ bool isSame(const Vec4& stored, const Vec4& expected, float factor) {
 
 /// Sets FrameHealth::settled for vertices whose stored tangent the method computes at all corners in triangles with UV
 /// area.
-Result<Done> settleBy(const TangentOptions& how, const TangentView& mesh, const Surface& surface, FrameHealth& health) {
-    const Result<std::vector<Vec4>> expected = expectedTangents(mesh, how);
-    if (!expected) return expected.error();
+void settleBy(const TangentOptions& how, const TangentView& mesh, const Surface& surface, FrameHealth& health) {
+    const std::vector<Vec4> expected = expectedTangents(mesh, how);
     std::vector<bool> judged(mesh.positions.size(), false), differs(mesh.positions.size(), false);
     for (std::size_t c = 0; c < surface.faces.size() * 3; ++c) {
         if (surface.faces[c / 3].orientation == 0) continue;
         const std::uint32_t v = mesh.corners[c];
         judged[v] = true;
-        if (!isSame(mesh.tangents[v], (*expected)[c], health.settled_sign)) differs[v] = true;
+        if (!isSame(mesh.tangents[v], expected[c], health.settled_sign)) differs[v] = true;
     }
     for (std::size_t v = 0; v < differs.size(); ++v) {
         if (judged[v] && !differs[v]) health.settled[v] = true;
     }
-    return Done{};
 }
 
 /// Sets FrameHealth::settled for vertices whose tangents equal those that `generate` would compute. Returns whether any
 /// of them had a fault.
-Result<bool> settleVertices(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
-                            FrameHealth& health) {
+bool settleVertices(const TangentView& mesh, const Surface& surface, const CheckOptions& options, FrameHealth& health) {
     const bool only_signs = health.all_signs_wrong && health.mirrored_seams.count == 0;
     const std::uint64_t doubtful = health.not_orthogonal.count + health.parallel.count + health.signs_mixed.count +
                                    health.mirrored_seams.count + health.uv_seams.count + health.directions_wrong.count +
@@ -389,12 +385,11 @@ Result<bool> settleVertices(const TangentView& mesh, const Surface& surface, con
     health.settled_sign = health.all_signs_wrong ? -1.0f : 1.0f;
     health.settled.assign(mesh.positions.size(), false);
     TangentOptions how{.convention = options.convention};
-    if (Result<Done> done = settleBy(how, mesh, surface, health); !done) return done.error();
+    settleBy(how, mesh, surface, health);
     // Tangents of Method::best may lie slightly outside the cone of the adjacent triangles.
     how.method = Method::best;
-    for (how.refine = 0; how.refine <= 2 && health.directions_wrong.count != 0; ++how.refine) {
-        if (Result<Done> done = settleBy(how, mesh, surface, health); !done) return done.error();
-    }
+    for (how.refine = 0; how.refine <= 2 && health.directions_wrong.count != 0; ++how.refine)
+        settleBy(how, mesh, surface, health);
     for (std::size_t v = 0; v < health.faults.size(); ++v) {
         if (health.settled[v] && health.faults[v] != 0) return true;
     }
@@ -431,22 +426,19 @@ bool isSound(const Vec4& tangent) {
     return size > 0.9f && size < 1.1f;
 }
 
-Result<std::vector<Vec4>> referenceTangents(const TangentView& mesh) {
+std::vector<Vec4> referenceTangents(const TangentView& mesh) {
     const MeshView view = mesh.triangles();
     std::vector<Vec4> tangents(mesh.corners.size());
     const TangentOptions options{.convention = conventions::opengl, .pairing = Pairing::corrected};
-    const Result<TangentReport> report = generateTangents(view, options, {.tangents = tangents});
-    if (!report) return report.error();
+    valueOrThrow(generateTangents(view, options, {.tangents = tangents}));
     return tangents;
 }
 
-Result<Done> examineSplits(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
-                           FrameHealth& health) {
+void examineSplits(const TangentView& mesh, const Surface& surface, const CheckOptions& options, FrameHealth& health) {
     const EqualVertices equal = findEqualVertices(mesh, true);
     health.frames_differ.total = mesh.positions.size();
-    if (equal.class_count == mesh.positions.size() || !doAnyDiffer(mesh, equal, options.split_deg)) return Done{};
-    const Result<std::vector<Vec4>> reference = referenceTangents(mesh);
-    if (!reference) return reference.error();
+    if (equal.class_count == mesh.positions.size() || !doAnyDiffer(mesh, equal, options.split_deg)) return;
+    const std::vector<Vec4> reference = referenceTangents(mesh);
     // Corners with equal class and equal reference tangent belong to one group.
     UniqueIndex<std::array<std::uint32_t, 5>> groups(mesh.positions.size());
     std::vector<std::uint32_t> first_vertex;
@@ -454,7 +446,7 @@ Result<Done> examineSplits(const TangentView& mesh, const Surface& surface, cons
     for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
         const std::uint32_t vertex = mesh.corners[c];
         if (surface.faces[c / 3].orientation == 0 || !isUsable(mesh.tangents[vertex])) continue;
-        const Vec4& t = (*reference)[c];
+        const Vec4& t = reference[c];
         if (!isSound(t)) continue;
         const std::uint32_t group =
             groups.indexOf({equal.class_of[vertex], weldBits(t.x), weldBits(t.y), weldBits(t.z), weldBits(t.w)});
@@ -467,11 +459,10 @@ Result<Done> examineSplits(const TangentView& mesh, const Surface& surface, cons
         const double angle = angleBetween(toDouble(xyz(first)), toDouble(xyz(mesh.tangents[vertex]))) * 180 / kPi;
         health.frames_differ.add(vertex, surface.known_areas[vertex], angle);
     }
-    return Done{};
 }
 
-Result<FrameHealth> examineOnce(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
-                                FrameHealth&& known) {
+FrameHealth examineOnce(const TangentView& mesh, const Surface& surface, const CheckOptions& options,
+                        FrameHealth&& known) {
     FrameHealth health;
     health.settled = std::move(known.settled);
     health.settled_sign = known.settled_sign;
@@ -480,22 +471,16 @@ Result<FrameHealth> examineOnce(const TangentView& mesh, const Surface& surface,
     const std::vector<float> directions = directionDistances(mesh, surface, options.direction_deg);
     examineSigns(mesh, surface, options, directions, health);
     examineDirections(mesh, surface, options, directions, health);
-    if (const Result<Done> done = examineSplits(mesh, surface, options, health); !done) return done.error();
+    examineSplits(mesh, surface, options, health);
     return health;
 }
 
 }  // namespace
 
-Result<FrameHealth> examineTangents(const TangentView& mesh, const Surface& surface, const CheckOptions& options) {
-    Result<FrameHealth> found = examineOnce(mesh, surface, options, {});
-    if (!found) return found;
-    if (!mesh.normals.empty() && !mesh.uvs.empty()) {
-        const Result<bool> settles = settleVertices(mesh, surface, options, *found);
-        if (!settles) return settles.error();
-        if (*settles) found = examineOnce(mesh, surface, options, *std::move(found));
-        if (!found) return found;
-    }
-    FrameHealth& health = *found;
+FrameHealth examineTangents(const TangentView& mesh, const Surface& surface, const CheckOptions& options) {
+    FrameHealth health = examineOnce(mesh, surface, options, {});
+    if (!mesh.normals.empty() && !mesh.uvs.empty() && settleVertices(mesh, surface, options, health))
+        health = examineOnce(mesh, surface, options, std::move(health));
     for (Tally* tally : {&health.not_finite, &health.not_unit, &health.not_orthogonal, &health.parallel,
                          &health.sign_not_one, &health.signs_mixed, &health.signs_wrong, &health.mirrored_seams,
                          &health.uv_seams, &health.directions_wrong, &health.frames_differ}) {
@@ -511,10 +496,10 @@ Result<FrameHealth> examineTangents(const TangentView& mesh, const Surface& surf
             if ((bits & kParallelTangent) == 0) bits &= ~faultBit(FindingCode::tangentsNotOrthogonal);
         }
     }
-    return found;
+    return health;
 }
 
-Result<FrameHealth> examineTangents(const TangentView& mesh, const CheckOptions& options) {
+FrameHealth examineTangents(const TangentView& mesh, const CheckOptions& options) {
     return examineTangents(mesh, describeSurface(mesh), options);
 }
 

@@ -77,9 +77,9 @@ struct FrameHealth {
 /// Examines tangents that should follow mesh.uvs. Without normals or UVs only values are examined. Triangles without UV
 /// area are ignored. Tangents that `generate` would compute on this mesh are never wrong. Expected near-linear time.
 /// Fails if generateTangents fails, which happens only if memory runs out.
-Result<FrameHealth> examineTangents(const TangentView& mesh, const CheckOptions& options);
+FrameHealth examineTangents(const TangentView& mesh, const CheckOptions& options);
 
 /// Examines tangents that should follow mesh.uvs, with `surface` that the caller has computed from `mesh`.
-Result<FrameHealth> examineTangents(const TangentView& mesh, const Surface& surface, const CheckOptions& options);
+FrameHealth examineTangents(const TangentView& mesh, const Surface& surface, const CheckOptions& options);
 
 }  // namespace tspace

@@ -532,8 +532,8 @@ void checkRounding(PrimitiveFacts& facts) {
 
 }  // namespace
 
-Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf,
-                                        std::span<const ScenePrimitive> scene) {
+PrimitiveVerdict judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf,
+                                std::span<const ScenePrimitive> scene) {
     PrimitiveFacts facts{.primitive = primitive, .options = options, .is_gltf = is_gltf};
     facts.all = scene;
     reportAttributeFaults(facts);
@@ -568,18 +568,10 @@ Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const C
     if (are_targets_read) checkMorphNormals(facts);
     checkUvs(facts);
     checkTextures(facts);
-    if (const Result<Done> done = checkTangents(facts); !done) return done.error();
+    checkTangents(facts);
     if (are_targets_read) checkMorphTargets(facts);
     const double compared = facts.examined_values ? comparedShare(facts) : 0;
     return PrimitiveVerdict{std::move(facts.findings), std::move(facts.faults), facts.wrong_sign_share, compared};
-}
-
-Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options,
-                                            bool is_gltf) {
-    Result<PrimitiveVerdict> verdict = judgePrimitive(primitive, options, is_gltf);
-    if (!verdict) return verdict.error();
-    formatRemedies(verdict->findings);
-    return std::move(verdict->findings);
 }
 
 }  // namespace tspace

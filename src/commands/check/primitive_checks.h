@@ -26,8 +26,7 @@ struct QuadReading {
 /// Returns the quads selected by CheckOptions::faces, split as MikkTSpace does it. Returns nothing if the triangles of
 /// the mesh are used, or, for Faces::automatic, if `health` has no fault that quads could explain. `health`: result for
 /// the mesh. Near-linear time; fails if generateTangents fails.
-Result<std::optional<QuadReading>> findQuads(const TangentView& mesh, const FrameHealth& health,
-                                             const CheckOptions& options);
+std::optional<QuadReading> findQuads(const TangentView& mesh, const FrameHealth& health, const CheckOptions& options);
 
 /// Data shared by the checks of one primitive.
 struct PrimitiveFacts {
@@ -61,12 +60,10 @@ struct PrimitiveVerdict {
     double compared_share = 0;
 };
 
-/// Returns all findings of a primitive, except those of its images. Fails only if memory runs out. `scene`: primitives
-/// of the scene, since surfaces may continue across borders of primitives.
-Result<PrimitiveVerdict> judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf,
-                                        std::span<const ScenePrimitive> scene = {});
-/// Returns only the findings of a primitive, with complete remedies.
-Result<std::vector<Finding>> checkPrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf);
+/// Returns all findings of a primitive, except those of its images. Throws FileError only if memory runs out. `scene`:
+/// primitives of the scene, since surfaces may continue across borders of primitives.
+PrimitiveVerdict judgePrimitive(const ScenePrimitive& primitive, const CheckOptions& options, bool is_gltf,
+                                std::span<const ScenePrimitive> scene = {});
 
 // Declares the checks in the order in which they run. checkTangents may detect that tangents follow other UVs, or were
 // computed on quads; it then stores these UVs or quads in `facts`.
@@ -77,7 +74,7 @@ void checkMorphValues(PrimitiveFacts& facts);
 void checkMorphNormals(PrimitiveFacts& facts);
 void checkUvs(PrimitiveFacts& facts);
 void checkTextures(PrimitiveFacts& facts);
-Result<Done> checkTangents(PrimitiveFacts& facts);
+void checkTangents(PrimitiveFacts& facts);
 void checkMorphTargets(PrimitiveFacts& facts);
 
 }  // namespace tspace

@@ -131,7 +131,7 @@ std::vector<Judged> judgeAll(const Scene& scene, const Work& work, const CheckOp
     reportProgress(0);
     workTogether(scene.memory.get(), results.size(), parallel, bytesOf, [&](std::size_t i) {
         if (is_alone && i != 0) reportProgress(i);
-        PrimitiveVerdict verdict = valueOrThrow(judgePrimitive(primitiveAt(i), options, is_gltf, scene.primitives));
+        PrimitiveVerdict verdict = judgePrimitive(primitiveAt(i), options, is_gltf, scene.primitives);
         results[i].findings = std::move(verdict.findings);
         results[i].wrong_sign_share = verdict.wrong_sign_share;
         results[i].compared_share = verdict.compared_share;

@@ -46,14 +46,13 @@ ScenePrimitive box(bool is_smooth) {
 }
 
 TEST(CheckNormals, FindsNormalsThatAreFarFromAllTheirTriangles) {
-    const auto smooth = checkPrimitive(box(true), {}, true);
-    ASSERT_TRUE(smooth);
-    ASSERT_EQ(smooth->size(), 1u);
-    EXPECT_EQ(smooth->front().code, FindingCode::normalsFarFromFaces);
-    EXPECT_EQ(smooth->front().severity, Severity::note);
-    EXPECT_NEAR(smooth->front().worst_deg, 54.7, 0.1);
-    EXPECT_EQ(checkPrimitive(box(false), {}, true)->size(), 0u);
-    EXPECT_FALSE(has(*checkPrimitive(goodPatch(), {}, true), FindingCode::normalsFarFromFaces));
+    const auto smooth = findingsOf(box(true));
+    ASSERT_EQ(smooth.size(), 1u);
+    EXPECT_EQ(smooth.front().code, FindingCode::normalsFarFromFaces);
+    EXPECT_EQ(smooth.front().severity, Severity::note);
+    EXPECT_NEAR(smooth.front().worst_deg, 54.7, 0.1);
+    EXPECT_EQ(findingsOf(box(false)).size(), 0u);
+    EXPECT_FALSE(has(findingsOf(goodPatch()), FindingCode::normalsFarFromFaces));
 }
 
 /// Returns a strip of a cylinder that starts at the angle `first` and has `count` steps of `step` degrees. `is_own`:
@@ -160,21 +159,21 @@ ScenePrimitive rolled(double how, bool has_normals = true) {
 }
 
 TEST(CheckMorphNormals, FindsMissingAndWrongDeltas) {
-    EXPECT_TRUE(checkPrimitive(rolled(1), {}, true)->empty());
-    EXPECT_TRUE(checkPrimitive(rolled(0.9), {}, true)->empty()) << "other weights";
+    EXPECT_TRUE(findingsOf(rolled(1)).empty());
+    EXPECT_TRUE(findingsOf(rolled(0.9)).empty()) << "other weights";
     for (const auto& [primitive, code] : {std::pair(rolled(0), FindingCode::morphNormalsMissing),
                                           std::pair(rolled(0, false), FindingCode::morphNormalsMissing),
                                           std::pair(rolled(-1), FindingCode::morphNormalsWrong)}) {
-        const auto findings = checkPrimitive(primitive, {}, true);
-        ASSERT_EQ(findings->size(), 1u);
-        EXPECT_EQ(findings->front().code, code);
-        EXPECT_EQ(findings->front().place, "/meshes/0/primitives/0/targets/0");
+        const auto findings = findingsOf(primitive);
+        ASSERT_EQ(findings.size(), 1u);
+        EXPECT_EQ(findings.front().code, code);
+        EXPECT_EQ(findings.front().place, "/meshes/0/primitives/0/targets/0");
     }
-    EXPECT_EQ(checkPrimitive(rolled(0), {}, true)->front().severity, Severity::warning);
-    EXPECT_EQ(checkPrimitive(rolled(-1), {}, true)->front().severity, Severity::error) << "114 degrees off";
+    EXPECT_EQ(findingsOf(rolled(0)).front().severity, Severity::warning);
+    EXPECT_EQ(findingsOf(rolled(-1)).front().severity, Severity::error) << "114 degrees off";
     ScenePrimitive unlit = rolled(-1);
     unlit.is_unlit = true;
-    EXPECT_TRUE(checkPrimitive(unlit, {}, true)->empty());
+    EXPECT_TRUE(findingsOf(unlit).empty());
 }
 
 /// A target that mirrors a part flips its triangles, and exporters write the normals of the mirrored part. Halfway
@@ -186,12 +185,12 @@ TEST(CheckMorphNormals, DoesNotJudgeWhereTrianglesAreFlipped) {
         for (const Vec3& position : mirrored.positions) offsets.push_back({-2 * position.x, 0, 0.3f * position.x});
         mirrored.morph_targets[0].positions = offsets;
         mirrored.morph_targets[0].normals = std::vector<Vec3>(offsets.size(), Vec3{0.2f, 0, turn});
-        EXPECT_TRUE(checkPrimitive(mirrored, {}, true)->empty()) << turn;
+        EXPECT_TRUE(findingsOf(mirrored).empty()) << turn;
     }
     // Normals next to a flipped triangle are still checked.
     ScenePrimitive folded = rolled(-1);
     edit(folded.morph_targets[0].positions, [&](auto& offsets) { offsets[40] = {0.5f, 0, 0}; });
-    EXPECT_EQ(checkPrimitive(folded, {}, true)->front().code, FindingCode::morphNormalsWrong);
+    EXPECT_EQ(findingsOf(folded).front().code, FindingCode::morphNormalsWrong);
 }
 
 TEST(CheckMorphNormals, JudgesTheChangeAndNotTheNormals) {
@@ -201,7 +200,7 @@ TEST(CheckMorphNormals, JudgesTheChangeAndNotTheNormals) {
     for (const Vec3& turn : tilted.morph_targets[0].normals) offsets.push_back({0.8f * turn.x, 0, 0.8f * turn.z});
     tilted.normals = std::vector<Vec3>(tilted.positions.size(), lean);
     tilted.morph_targets[0].normals = offsets;
-    EXPECT_TRUE(checkPrimitive(tilted, {}, true)->empty());
+    EXPECT_TRUE(findingsOf(tilted).empty());
 }
 
 // Some exporters, such as Blender, recompute the normals of a morph target from its displaced triangles.
@@ -224,10 +223,9 @@ SceneMorphTarget targetOf(std::vector<Vec3> offsets, const std::vector<Vec3>& no
 }
 
 std::size_t wrongNormals(const ScenePrimitive& primitive, std::span<const ScenePrimitive> all) {
-    const Result<PrimitiveVerdict> verdict = judgePrimitive(primitive, {}, true, all);
-    EXPECT_TRUE(verdict);
+    const PrimitiveVerdict verdict = judgePrimitive(primitive, {}, true, all);
     return static_cast<std::size_t>(
-        std::count_if(verdict->findings.begin(), verdict->findings.end(),
+        std::count_if(verdict.findings.begin(), verdict.findings.end(),
                       [](const Finding& finding) { return finding.code == FindingCode::morphNormalsWrong; }));
 }
 
@@ -279,10 +277,10 @@ TEST(CheckMorphNormals, FindsOneOffsetThatIsNotFinite) {
                 in_normals ? primitive.morph_targets[1].normals : primitive.morph_targets[1].positions;
             edit(array, [&](auto& offsets) { offsets[40].y = bad; });
             const FindingCode code = in_normals ? FindingCode::normalsNotFinite : FindingCode::positionsNotFinite;
-            const auto findings = checkPrimitive(primitive, {}, true);
-            const auto found = std::find_if(findings->begin(), findings->end(),
+            const auto findings = findingsOf(primitive);
+            const auto found = std::find_if(findings.begin(), findings.end(),
                                             [&](const Finding& finding) { return finding.code == code; });
-            ASSERT_NE(found, findings->end());
+            ASSERT_NE(found, findings.end());
             EXPECT_EQ(found->severity, Severity::error);
             EXPECT_EQ(found->count, 1u);
             EXPECT_EQ(found->vertices, std::vector<std::uint32_t>{40});
@@ -290,7 +288,7 @@ TEST(CheckMorphNormals, FindsOneOffsetThatIsNotFinite) {
             EXPECT_NE(found->message.find("target 1"), std::string::npos);
             EXPECT_EQ(found->remedy.find("--morph-normals all") != std::string::npos, in_normals);
             primitive.corners = std::vector<std::uint32_t>{0, 1, 18};
-            EXPECT_FALSE(has(*checkPrimitive(primitive, {}, true), code)) << "no triangle uses it";
+            EXPECT_FALSE(has(findingsOf(primitive), code)) << "no triangle uses it";
         }
     }
 }
@@ -298,13 +296,13 @@ TEST(CheckMorphNormals, FindsOneOffsetThatIsNotFinite) {
 TEST(CheckMorphNormals, FindsOneNormalThatATargetCancels) {
     ScenePrimitive primitive = rolled(1);
     edit(primitive.morph_targets[0].normals, [](auto& offsets) { offsets[40] = {0, 0, -1}; });
-    const auto findings = checkPrimitive(primitive, {}, true);
-    ASSERT_EQ(findings->size(), 1u);
-    EXPECT_EQ(findings->front().code, FindingCode::morphNormalsWrong);
-    EXPECT_EQ(findings->front().severity, Severity::error);
-    EXPECT_EQ(findings->front().vertices, std::vector<std::uint32_t>{40});
+    const auto findings = findingsOf(primitive);
+    ASSERT_EQ(findings.size(), 1u);
+    EXPECT_EQ(findings.front().code, FindingCode::morphNormalsWrong);
+    EXPECT_EQ(findings.front().severity, Severity::error);
+    EXPECT_EQ(findings.front().vertices, std::vector<std::uint32_t>{40});
     primitive.morph_targets[0].positions = {};
-    EXPECT_EQ(checkPrimitive(primitive, {}, true)->front().remedy, "Export the normals of the targets again.");
+    EXPECT_EQ(findingsOf(primitive).front().remedy, "Export the normals of the targets again.");
 }
 
 TEST(CheckMorphNormals, ReportsTheFaultsOfFiles) {

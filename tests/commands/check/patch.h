@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "commands/check/primitive_checks.h"
+#include "commands/check/remedy.h"
 #include "core/base/vec_math.h"
 #include "tspace/tangents.h"
 
@@ -110,8 +111,9 @@ inline Vec4 turned(const Vec4& tangent, const Vec3& normal, double degrees) {
 }
 
 inline std::vector<Finding> findingsOf(const ScenePrimitive& primitive, const CheckOptions& options = {}) {
-    Result<std::vector<Finding>> findings = checkPrimitive(primitive, options, true);
-    return findings ? *std::move(findings) : std::vector<Finding>{};
+    std::vector<Finding> findings = judgePrimitive(primitive, options, true).findings;
+    formatRemedies(findings);
+    return findings;
 }
 
 inline const Finding& only(const std::vector<Finding>& findings, FindingCode code) {

@@ -100,9 +100,8 @@ TEST(Check, NamesTheAxesOfUnconvertedTangents) {
     const std::vector<Finding> findings = findingsOf(patch);
     const std::string& message = only(findings, FindingCode::directionsWrong).message;
     EXPECT_NE(message.find("they fit if the stored vectors are read as (x, z, -y)"), std::string::npos) << message;
-    const Result<PrimitiveVerdict> verdict = judgePrimitive(patch, {}, true);
-    ASSERT_TRUE(verdict);
-    for (const std::uint32_t bits : verdict->faults) EXPECT_NE(bits & faultBit(FindingCode::directionsWrong), 0u);
+    const PrimitiveVerdict verdict = judgePrimitive(patch, {}, true);
+    for (const std::uint32_t bits : verdict.faults) EXPECT_NE(bits & faultBit(FindingCode::directionsWrong), 0u);
 }
 
 /// Like a tile of a globe in the globe's coordinates, stored as floats: positions far from the origin are rounded.
