@@ -60,8 +60,7 @@ void joinUnused(const Scene& scene, std::span<PrimitiveJudgement> judgements, st
 
 /// Converts a warning from reading the file to a finding about the whole file, without a primitive.
 Finding fileRemark(const std::string& warning) {
-    const Tally one{.count = 1, .total = 1};
-    return makeFinding(FindingCode::fileRemark, Severity::note, one, "files", {.cause = warning});
+    return makeFinding(FindingCode::fileRemark, Severity::note, Tally::all(1), "files", {.cause = warning});
 }
 
 /// Sorts and counts the findings, and writes their remedies as text.

@@ -331,8 +331,7 @@ const MapPart& partOf(const NormalMap& map) {
 }
 
 Finding unreadable(const std::string& name, const std::string& why_not) {
-    const Tally one{.count = 1, .total = 1};
-    return makeFinding(FindingCode::normalMapUnreadable, Severity::note, one, "images",
+    return makeFinding(FindingCode::normalMapUnreadable, Severity::note, Tally::all(1), "images",
                        {.cause = "the normal map " + name + " was not examined: " + why_not});
 }
 
@@ -394,8 +393,7 @@ void describeReading(const Scene& scene, const NormalMap& map, const std::string
         setRemedy(findings.back(), std::move(conversion));
     }
     if (map.layer_text.empty()) return;
-    const Tally one{.count = 1, .total = 1};
-    findings.push_back(makeFinding(FindingCode::fileRemark, Severity::note, one, "images",
+    findings.push_back(makeFinding(FindingCode::fileRemark, Severity::note, Tally::all(1), "images",
                                    {.cause = "the normal map " + name + ": " + map.layer_text}));
     setRemedy(findings.back(), Remedy{"No action is needed if these channels are the normal map. Otherwise export the "
                                       "layer of the normal map alone.",
@@ -410,9 +408,8 @@ void describeStorage(const Scene& scene, const NormalMap& map, const std::string
     const std::optional<TextureFacts> facts = textureFacts(image.bytes);
     const MapContent content = map.analysis.content;
     const auto add = [&](FindingCode code, Severity severity, std::string text) -> Finding& {
-        const Tally one{.count = 1, .total = 1};
-        return findings.emplace_back(
-            makeFinding(code, severity, one, "images", {.cause = "the normal map " + name + std::move(text)}));
+        return findings.emplace_back(makeFinding(code, severity, Tally::all(1), "images",
+                                                 {.cause = "the normal map " + name + std::move(text)}));
     };
     if (isEtc1s(facts) || isLossyWebp(image.bytes)) {
         std::string text =
@@ -565,9 +562,8 @@ std::vector<Finding> checkMapScales(const Scene& scene) {
     for (const ScenePrimitive& primitive : scene.primitives) {
         for (const TangentUse& use : primitive.uses) {
             if (use.needed_by == "anisotropy" || use.scale > 0 || !places.insert(use.place).second) continue;
-            const Tally one{.count = 1, .total = 1};
             findings.push_back(makeFinding(
-                FindingCode::normalMapScale, Severity::note, one, "textures",
+                FindingCode::normalMapScale, Severity::note, Tally::all(1), "textures",
                 use.scale == 0
                     ? FindingText{.symptom = "no bumps are visible", .cause = "the scale of the normal map is 0"}
                     : FindingText{.symptom = "bumps look like dents",

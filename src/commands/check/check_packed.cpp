@@ -107,8 +107,7 @@ bool canPack(const ScenePrimitive& primitive) {
 }
 
 Finding unreadablePacking(const ScenePrimitive& primitive, const ScenePacked& packed) {
-    const Tally one{.count = 1, .total = 1};
-    Finding finding = makeFinding(FindingCode::packedFramesUnreadable, Severity::warning, one, "attributes",
+    Finding finding = makeFinding(FindingCode::packedFramesUnreadable, Severity::warning, Tally::all(1), "attributes",
                                   {.cause = packed.attribute + " " + packed.fault});
     setRemedy(finding,
               canPack(primitive)

@@ -215,9 +215,8 @@ class MeshSeams {
 };
 
 Finding notCompared(const ScenePrimitive& first, const std::string& why) {
-    const Tally one{.count = 1, .total = 1};
     Finding finding = makeFinding(
-        FindingCode::fileRemark, Severity::note, one, "meshes",
+        FindingCode::fileRemark, Severity::note, Tally::all(1), "meshes",
         {.cause = "normals at the borders of the primitives of this mesh were not compared: comparing them " + why});
     placeAt(first, first.place, finding);
     finding.material_name.clear();  // the finding concerns the whole mesh

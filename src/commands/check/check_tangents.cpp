@@ -286,11 +286,10 @@ void addExplanation(PrimitiveFacts& facts, const FrameHealth& health, const Othe
 }
 
 void checkUnreadable(PrimitiveFacts& facts) {
-    const Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
     for (const SceneTangentFault& fault : facts.primitive.tangent_faults) {
         const std::string what =
             fault.target < 0 ? "the tangents" : "the tangent deltas of morph target " + std::to_string(fault.target);
-        facts.add(FindingCode::tangentsUnreadable, Severity::error, all, "vertices",
+        facts.add(FindingCode::tangentsUnreadable, Severity::error, Tally::all(facts.mesh.positions.size()), "vertices",
                   {.cause = what + " cannot be read: " + fault.why});
     }
 }
@@ -304,7 +303,7 @@ void checkTangentsMissing(PrimitiveFacts& facts) {
     // If an attribute cannot be read, its own finding states the fix.
     if (facts.primitive.uses.empty() || isUnreadable(facts.primitive) || !facts.primitive.attribute_faults.empty())
         return;
-    Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
+    Tally all = Tally::all(facts.mesh.positions.size());
     const char* state = facts.primitive.tangents_not_read ? "cannot be read from this format" : "are missing";
     const std::string& user = facts.primitive.uses.front().needed_by;
     if (const ScenePacked* packed = facts.primitive.packedAlone()) {
@@ -337,7 +336,7 @@ void checkTangents(PrimitiveFacts& facts) {
         checkTangentsMissing(facts);
         return;
     }
-    Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
+    Tally all = Tally::all(facts.mesh.positions.size());
     if (facts.primitive.uses.empty() && !facts.primitive.mayHaveAuthoredTangents()) {
         // No material reads these tangents, so faults in them are invisible.
         facts.add(FindingCode::tangentsUnused, Severity::note, all, "vertices",

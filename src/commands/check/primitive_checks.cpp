@@ -267,8 +267,7 @@ void checkPositions(PrimitiveFacts& facts) {
 void checkNoise(PrimitiveFacts& facts) {
     const double noise = reportableNoise(facts.mesh.triangles(), facts.mesh.position_step, facts.options.weld_distance);
     if (noise == 0) return;
-    Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
-    facts.add(FindingCode::positionsNoisy, Severity::note, all, "vertices",
+    facts.add(FindingCode::positionsNoisy, Severity::note, Tally::all(facts.mesh.positions.size()), "vertices",
               {.symptom = "the shading may look noisy",
                .cause = "the positions deviate from a smooth surface by " + stepText(noise) +
                         " of an edge length (root mean square)"});
@@ -307,20 +306,19 @@ Remedy attributeRemedy(const ScenePrimitive& primitive, const SceneAttributeFaul
 
 void reportAttributeFaults(PrimitiveFacts& facts) {
     for (const SceneAttributeFault& fault : facts.primitive.attribute_faults) {
-        const Tally all{.count = fault.vertex_count, .total = fault.vertex_count};
         const std::string name = attributeText(fault.name, fault.target);
         const bool was_read = fault.target < 0 && fault.name == "NORMAL" && !facts.primitive.normals.empty();
         // Unsigned normals that have unit length are correct if no component should be negative.
         const bool may_be_right = was_read && facts.primitive.normal_scales == nullptr;
-        facts.add(FindingCode::attributeUnreadable, may_be_right ? Severity::warning : Severity::error, all, "vertices",
+        facts.add(FindingCode::attributeUnreadable, may_be_right ? Severity::warning : Severity::error,
+                  Tally::all(fault.vertex_count), "vertices",
                   was_read ? FindingText{.symptom = "the surface may be lit from wrong directions",
                                          .cause = "the elements of NORMAL " + fault.why}
                            : FindingText{.cause = "the elements of " + name + " cannot be read: " + fault.why});
         setRemedy(facts.findings.back(), attributeRemedy(facts.primitive, fault));
     }
     for (const SceneComponentFault& fault : facts.primitive.component_faults) {
-        const Tally all{.count = fault.vertex_count, .total = fault.vertex_count};
-        facts.add(FindingCode::attributeUnreadable, Severity::warning, all, "vertices",
+        facts.add(FindingCode::attributeUnreadable, Severity::warning, Tally::all(fault.vertex_count), "vertices",
                   {.symptom = "some programs reject the file or read other values",
                    .cause = "the elements of " + fault.name + " are " + fault.found + ", but glTF allows only " +
                             fault.allowed + "; tspace uses them unchanged"});
@@ -331,8 +329,7 @@ void reportAttributeFaults(PrimitiveFacts& facts) {
 void checkNormals(PrimitiveFacts& facts) {
     if (facts.primitive.findFault("NORMAL") != nullptr) return;
     if (facts.mesh.normals.empty()) {
-        Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
-        facts.add(FindingCode::normalsMissing, Severity::note, all, "vertices",
+        facts.add(FindingCode::normalsMissing, Severity::note, Tally::all(facts.mesh.positions.size()), "vertices",
                   facts.is_gltf
                       ? FindingText{.symptom = "the surface looks faceted",
                                     .cause = "the primitive has no normals, so glTF readers shade it flat"}
@@ -366,8 +363,7 @@ void checkUvsMissing(PrimitiveFacts& facts) {
         if (!use.has_texture) continue;
         if (!plainReading(facts.primitive, use.uv_set).uvs.empty() || !reported.insert(use.uv_set).second) continue;
         if (facts.primitive.findFault(setName(use.uv_set)) != nullptr) continue;
-        Tally all{.count = facts.mesh.positions.size(), .total = facts.mesh.positions.size()};
-        facts.add(FindingCode::uvsMissing, Severity::error, all, "vertices",
+        facts.add(FindingCode::uvsMissing, Severity::error, Tally::all(facts.mesh.positions.size()), "vertices",
                   facts.is_gltf
                       ? FindingText{.cause = use.needed_by + " uses " + setName(use.uv_set) + ", which does not exist"}
                       : FindingText{.symptom = "the relief cannot be shown",
@@ -541,9 +537,8 @@ PrimitiveVerdict judgePrimitive(const ScenePrimitive& primitive, const CheckOpti
         // In glTF, points and lines are shaded with their tangents if the material has a normal map.
         const bool has_positions = primitive.findFault("POSITION") == nullptr;
         if (has_positions && !primitive.tangents.empty() && primitive.uses.empty()) {
-            Tally all{.count = 1, .total = 1};
             facts.add(
-                FindingCode::tangentsUnused, Severity::note, all, "primitives",
+                FindingCode::tangentsUnused, Severity::note, Tally::all(1), "primitives",
                 {.cause = "the primitive has tangents, but draws " + primitive.mode + ", and no material needs them"});
         }
         return PrimitiveVerdict{.findings = std::move(facts.findings)};

@@ -21,6 +21,9 @@ struct Tally {
     double worst_deg = 0;
     std::vector<std::uint32_t> vertices = {};  ///< first vertices that have the fault, without duplicates
 
+    /// Returns the tally of a fault that all of `count` candidates have.
+    static Tally all(std::uint64_t count) { return {.count = count, .total = count}; }
+
     void add(std::uint32_t vertex, double its_area, double deg = 0) {
         ++count;
         area += its_area;
