@@ -8,6 +8,7 @@
 #include "commands/check/check_report.h"
 #include "commands/shared/text.h"
 #include "model/io/path.h"
+#include "model/io/uri.h"
 #include "tspace/version.h"
 
 namespace tspace::report {
@@ -174,22 +175,9 @@ std::string checkSummary(const std::vector<CheckOutcome>& outcomes, bool in_colo
 
 namespace {
 
-/// Encodes bytes that are not allowed in the path of a URI (RFC 3986) as "%xx". Colons are encoded too: before the
-/// first slash, a colon would end a scheme.
-std::string percentEncoded(const std::string& path) {
-    constexpr const char* kDigits = "0123456789ABCDEF";
-    std::string uri;
-    for (const char c : path) {
-        const auto byte = static_cast<unsigned char>(c);
-        const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-        if (is_letter || (c != '\0' && std::string("-._~/").find(c) != std::string::npos)) {
-            uri += c;
-        } else {
-            uri += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
-        }
-    }
-    return uri;
-}
+/// Encodes a path for readers of URIs (RFC 3986). Colons are encoded too: before the first slash, a colon would end a
+/// scheme.
+std::string percentEncoded(const std::string& path) { return percentEncode(path, "-._~/"); }
 
 /// Returns the URI of a file. Relative paths stay relative, so that a CI system finds the file in its checkout.
 Json artifactLocation(const std::string& input) {

@@ -149,11 +149,11 @@ std::string percentDecode(std::string_view text) {
     return result;
 }
 
-std::string percentEncode(std::string_view path) {
+std::string percentEncode(std::string_view path, std::string_view kept) {
     constexpr std::string_view kHex = "0123456789ABCDEF";
     std::string result;
     for (const char c : path) {
-        if (isLetter(c) || isDigit(c) || std::string_view("-._~/!$&'()*+,;=@").find(c) != std::string_view::npos) {
+        if (isLetter(c) || isDigit(c) || kept.find(c) != std::string_view::npos) {
             result += c;
         } else {
             const auto byte = static_cast<unsigned char>(c);

@@ -33,8 +33,8 @@ std::string encodeDataUri(std::string_view mime_type, const Bytes& bytes);
 /// signs.
 std::string percentDecode(std::string_view text);
 
-/// Escapes characters that are not allowed in the path of a URI.
-std::string percentEncode(std::string_view path);
+/// Escapes characters that are not allowed in the path of a URI: all except letters, digits and `kept`.
+std::string percentEncode(std::string_view path, std::string_view kept = "-._~/!$&'()*+,;=@");
 
 /// Returns the path of a relative URI: escapes are decoded, backslashes (written by some exporters) become slashes, "."
 /// is removed, and ".." remains only at the front.
