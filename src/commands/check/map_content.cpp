@@ -405,7 +405,7 @@ MapAnalyzer::NormalAgreement MapAnalyzer::agreementWithNormals(std::span<const T
 
 std::optional<MapAnalysis> MapAnalyzer::objectSpace() const {
     constexpr double kMuchBelow = 0.2, kRounding = 1e-6;
-    if (plain_.unit_share < 0.7) return {};
+    if (plain_.unit_share < kLeastUnitShare) return {};
     const std::optional<MainDirection> up = mainDirection();
     const NormalAgreement mesh = agreementWithNormals(surface_, up), world = agreementWithNormals(in_world_, up);
     const bool is_in_world = world.agreement > mesh.agreement + kRounding;

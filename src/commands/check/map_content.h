@@ -67,6 +67,8 @@ MapAnalysis analyzeTexels(std::span<const TexelBytes> texels, bool has_alpha, st
 
 /// Returns the share of texels that are unit vectors with x, y and z in red, green and blue.
 double unitShare(std::span<const TexelBytes> texels);
+/// Minimum unitShare of vectors in object space.
+inline constexpr double kLeastUnitShare = 0.7;
 
 /// Returns whether blue contains no information.
 bool isBlueConstant(std::span<const TexelBytes> texels);

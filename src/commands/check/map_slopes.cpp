@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -181,10 +182,22 @@ bool mayHaveCurve(const MapAnalysis& analysis, const DecodedMap& map, std::span<
     }
 }
 
-/// Returns whether the content of a map after a curve was undone shows that the map had the curve: without relief, x
-/// and y are 0, and the slopes fit a height field.
+/// Maximum absolute mean of x and of y that shows that a curve was undone: without relief, both are 0.
+constexpr double kNearZero = 0.15;
+
+/// Returns whether showsCurve() can be true for these texels: they contain the vectors of object space, or two channels
+/// whose means are near 0. Much faster than their analysis.
+bool mayShowCurve(std::span<const TexelBytes> texels) {
+    std::size_t near_zero = 0;
+    for (std::size_t channel = 0; channel < 4; ++channel)
+        near_zero += std::fabs(spreadOf(texels, channel).mean * kByteStep - 1) < kNearZero;
+    return near_zero >= 2 || unitShare(texels) >= kLeastUnitShare;
+}
+
+/// Returns whether the content of a map after a curve was undone shows that the map had the curve: x and y are near 0,
+/// and the slopes fit a height field.
 bool showsCurve(const DecodedMap& map, const MapAnalysis& analysis, std::span<const TexelBytes> texels) {
-    constexpr double kNearZero = 0.15, kAnyLength = 1;
+    constexpr double kAnyLength = 1;
     if (analysis.content == MapContent::objectSpace) return analysis.follows_mesh;
     const auto at = [](const MapComponent& component) { return static_cast<std::size_t>(component.channel); };
     return analysis.content != MapContent::normals && holdsNormals(analysis.content) &&
@@ -200,21 +213,24 @@ MapAnalysis contentOf(const DecodedMap& map, std::span<const TexelBytes> texels,
     const bool is_encoded = plain.content == MapContent::encoded;
     for (const MapCurve curve : {MapCurve::srgb, MapCurve::linearized}) {
         if (is_encoded && plain.layout.curve != curve) continue;
-        const RgbImage image = readAs(map, {.curve = curve});
-        const DecodedMap decoded{image, map.alpha, map.inside, map.declared};
         const LayoutReader reader({.curve = curve});
-        const auto decode = [&reader](std::span<const TexelOnSurface> points) {
-            std::vector<TexelOnSurface> read(points.begin(), points.end());
-            for (TexelOnSurface& point : read) {
-                const DVec3 v = reader.vector(point.texel);
-                point.texel = {storedValue(v.x), storedValue(v.y), storedValue(v.z), point.texel[3]};
-            }
-            return read;
+        const auto decoded = [&reader](const TexelBytes& texel) -> TexelBytes {
+            const DVec3 v = reader.vector(texel);
+            return {storedValue(v.x), storedValue(v.y), storedValue(v.z), texel[3]};
         };
-        const std::vector<TexelBytes> read = sampleTexels(image, map.alpha, map.inside);
-        MapAnalysis analysis = linearContentOf(decoded, read, decode(surface), decode(in_world));
+        std::vector<TexelBytes> read;
+        std::transform(texels.begin(), texels.end(), std::back_inserter(read), decoded);
+        if (!is_encoded && !mayShowCurve(read)) continue;
+        const auto decodedAll = [&](std::span<const TexelOnSurface> points) {
+            std::vector<TexelOnSurface> all(points.begin(), points.end());
+            for (TexelOnSurface& point : all) point.texel = decoded(point.texel);
+            return all;
+        };
+        const RgbImage image = readAs(map, {.curve = curve});
+        const DecodedMap linear{image, map.alpha, map.inside, map.declared};
+        MapAnalysis analysis = linearContentOf(linear, read, decodedAll(surface), decodedAll(in_world));
         const bool is_known = is_encoded && analysis.content != MapContent::normals && holdsNormals(analysis.content);
-        if (!is_known && !showsCurve(decoded, analysis, read)) continue;
+        if (!is_known && !showsCurve(linear, analysis, read)) continue;
         analysis.layout.curve = curve;
         return analysis;
     }
