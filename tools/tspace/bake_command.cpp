@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // tspace bake: bakes one low poly and one high poly, or a table of pairs (bake_pairs.h).
-#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -48,37 +47,14 @@ ExitCode runBake(const BakeArguments& arguments) {
     const Result<Done> fit = prepareOutputs(
         outputs, {arguments.low, arguments.high, options.cage, options.skew, matchFileOf(options.match)});
     if (!fit) return printUsageError(fit.error().message);
-    InputFiles read;
-    const auto start = std::chrono::steady_clock::now();
-    HeldOutputs held;
-    report::Outcome<BakeFileReport> outcome{
-        .input = arguments.low, .output = arguments.output, .result = bake(arguments, read)};
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    outcome.seconds = took.count();
-    rejectReportOfInput(outcome.result, arguments.report, read, held);
-    return commitAndPrint(held, [&](const Error* failure) {
-        if (failure != nullptr) outcome.result = *failure;
-        const Result<BakeFileReport>& result = outcome.result;
-        ExitCode exit_code =
-            result ? report::exitCodeOf(*result)
-                   : printErrorOfFiles({arguments.low, arguments.high, options.cage, "", options.skew}, result.error());
-        // The reason why there is no map is printed for users who do not read the report.
-        if (result && result->output_files.empty()) {
-            for (const std::string& finding : result->findings) printRemark(finding);
-        }
-        if (isReported(result, arguments.report, read)) {
-            const Result<Done> written =
-                writeTextFile(arguments.report, report::bakeJson(outcome, arguments.high, exit_code), &read);
-            if (!written) exit_code = worse(exit_code, printError(arguments.report, written.error()));
-        }
-        PreparedReport report{.exit_code = exit_code};
-        if (arguments.json) {
-            report.text = report::bakeJson(outcome, arguments.high, exit_code);
-        } else if (!arguments.quiet && result) {
-            report.text = fitted(report::bakeText(outcome, options.out_mesh));
-        }
-        return report;
-    });
+    return makeAndReport<BakeFileReport>(
+        arguments, {.input = arguments.low, .output = arguments.output},
+        {arguments.low, arguments.high, options.cage, "", options.skew},
+        [&](InputFiles& read) { return bake(arguments, read); },
+        [](const BakeFileReport& report) { return report::exitCodeOf(report); },
+        [](const BakeFileReport& report) { return report.findings; },
+        [&](const auto& outcome, ExitCode code) { return report::bakeJson(outcome, arguments.high, code); },
+        [&](const auto& outcome) { return report::bakeText(outcome, options.out_mesh); });
 }
 
 ExitCode runPairs(const BakeArguments& arguments) {

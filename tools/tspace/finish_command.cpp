@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // tspace finish: prepares one model, optionally with a low poly.
-#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,7 +38,6 @@ Result<FinishReport> finish(const FinishArguments& arguments, InputFiles& read, 
 
 ExitCode runFinish(const FinishArguments& arguments) {
     const FinishOptions& options = arguments.options;
-    const std::string& about_low = options.low.empty() ? arguments.input : options.low;
     std::vector<std::string> outputs = {options.page, arguments.report};
     const std::vector<std::string> made = finishOutputs(outputs, arguments.output, options);
     outputs.insert(outputs.begin(), made.begin(), made.end());
@@ -48,37 +46,14 @@ ExitCode runFinish(const FinishArguments& arguments) {
     if (!fit) return printUsageError(fit.error().message);
     const Result<PageOrigin> origin = pageOrigin();
     if (!options.page.empty() && !origin) return printUsageError(origin.error().message);
-    InputFiles read;
-    const auto start = std::chrono::steady_clock::now();
-    HeldOutputs held;
-    report::Outcome<FinishReport> outcome{.input = arguments.input,
-                                          .output = arguments.output,
-                                          .result = finish(arguments, read, origin ? *origin : PageOrigin{})};
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    outcome.seconds = took.count();
-    rejectReportOfInput(outcome.result, arguments.report, read, held);
-    return commitAndPrint(held, [&](const Error* failure) {
-        if (failure != nullptr) outcome.result = *failure;
-        const Result<FinishReport>& result = outcome.result;
-        ExitCode exit_code =
-            result ? report::exitCodeOf(*result) : printErrorOfFiles({about_low, arguments.input}, result.error());
-        // Prints why there is no model, for users who do not read the report.
-        if (result && result->output_files.empty()) {
-            for (const std::string& finding : result->bake->findings) printRemark(finding);
-        }
-        if (isReported(result, arguments.report, read)) {
-            const Result<Done> written =
-                writeTextFile(arguments.report, report::finishJson(outcome, options.low, exit_code), &read);
-            if (!written) exit_code = worse(exit_code, printError(arguments.report, written.error()));
-        }
-        PreparedReport report{.exit_code = exit_code};
-        if (arguments.json) {
-            report.text = report::finishJson(outcome, options.low, exit_code);
-        } else if (!arguments.quiet && result) {
-            report.text = fitted(report::finishText(outcome));
-        }
-        return report;
-    });
+    return makeAndReport<FinishReport>(
+        arguments, {.input = arguments.input, .output = arguments.output},
+        {options.low.empty() ? arguments.input : options.low, arguments.input},
+        [&](InputFiles& read) { return finish(arguments, read, origin ? *origin : PageOrigin{}); },
+        [](const FinishReport& report) { return report::exitCodeOf(report); },
+        [](const FinishReport& report) { return report.bake->findings; },
+        [&](const auto& outcome, ExitCode code) { return report::finishJson(outcome, options.low, code); },
+        report::finishText);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "core/base/border.h"
 #include "depfile.h"
 #include "model/io/atomic_output.h"
+#include "output_files.h"
 
 namespace tspace::tool {
 
@@ -67,21 +68,44 @@ ExitCode commitAndPrint(HeldOutputs& outputs, const Prepare& prepare) {
     return printResult(report.text, report.to, failure) ? report.exit_code : ExitCode::cannotReadOrWrite;
 }
 
-/// If the file of --report is one of the inputs, makes the result an error and discards the outputs. Only reading a
-/// model shows which files it references.
-template <class Value>
-void rejectReportOfInput(Result<Value>& result, const std::string& path, const InputFiles& read, HeldOutputs& outputs) {
-    if (!result || path.empty() || !read.has(path)) return;
-    result = Error{ErrorCode::invalidOption, "the output " + path + " is an input"};
-    outputs.discard();
-}
-
-/// Returns whether the file of --report is written. It is written after most errors, too, but not if memory ran out, or
-/// if the file is one of the inputs.
-template <class Value>
-bool isReported(const Result<Value>& result, const std::string& path, const InputFiles& read) {
-    const bool has_memory = result || result.error().code != ErrorCode::outOfMemory;
-    return !path.empty() && has_memory && !read.has(path);
+/// Runs a command whose report may also be written to a file (--report). `arguments` has the members report, json and
+/// quiet; `outcome`: names the input and the output. make(read) makes the outputs and records the files that it reads.
+/// `files`: those that errors may name. If nothing was written, findingsOf(value) contains the reason.
+template <class Value, class Arguments, class Make, class CodeOf, class FindingsOf, class JsonOf, class TextOf>
+ExitCode makeAndReport(const Arguments& arguments, report::Outcome<Value> outcome,
+                       const std::vector<std::string>& files, const Make& make, const CodeOf& codeOf,
+                       const FindingsOf& findingsOf, const JsonOf& jsonOf, const TextOf& textOf) {
+    InputFiles read;
+    const auto start = std::chrono::steady_clock::now();
+    HeldOutputs held;
+    Result<Value>& result = outcome.result = make(read);
+    outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    // Only reading a model shows which files it references.
+    const bool is_input = !arguments.report.empty() && read.has(arguments.report);
+    if (result && is_input) {
+        result = Error{ErrorCode::invalidOption, "the output " + arguments.report + " is an input"};
+        held.discard();
+    }
+    return commitAndPrint(held, [&](const Error* failure) {
+        if (failure != nullptr) result = *failure;
+        PreparedReport report{.exit_code = result ? codeOf(*result) : printErrorOfFiles(files, result.error())};
+        // The reason is printed for users who do not read the report.
+        if (result && result->output_files.empty()) {
+            for (const std::string& finding : findingsOf(*result)) printRemark(finding);
+        }
+        // The file is written after most errors too, but not if memory ran out.
+        const bool has_memory = result || result.error().code != ErrorCode::outOfMemory;
+        if (!arguments.report.empty() && has_memory && !is_input) {
+            const Result<Done> written = writeTextFile(arguments.report, jsonOf(outcome, report.exit_code), &read);
+            if (!written) report.exit_code = worse(report.exit_code, printError(arguments.report, written.error()));
+        }
+        if (arguments.json) {
+            report.text = jsonOf(outcome, report.exit_code);
+        } else if (!arguments.quiet && result) {
+            report.text = fitted(textOf(outcome));
+        }
+        return report;
+    });
 }
 
 /// Processes one of several files: sets outcome.result to make(), composes its report with prepare(), and puts its
