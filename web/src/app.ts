@@ -55,15 +55,10 @@ const lacking = (missing: string[]): string => `The model references files that 
  */
 const isPageFault = (error: unknown): boolean => !(error instanceof LoaderError || error instanceof Refusal || error instanceof DOMException || (error instanceof WorkError && error.code !== "internal"));
 
-/** Returns why there is no picture. Only errors of the loader of three.js are attributed to the file. */
-function plainly(error: unknown): string {
-  if (isPageFault(error)) return `this page failed with an internal error (${String(error)}), which does not mean that the file is damaged. The findings do not depend on the picture.`;
-  const text = sentenceOf(error).replace(/^THREE\.\w+: /, "");
-  if (/Unsupported asset|Legacy binary/.test(text)) return "its version of glTF is older than 2.0.";
-  if (/^Failed to load buffer/.test(text)) return "a file with its geometry is missing.";
-  if (/Invalid typed array length|out of (the )?bounds|offset|RangeError|length of/i.test(text)) return "an array of the file is shorter than the file declares.";
-  if (/Cannot read propert|is not iterable|is undefined|is not a function/.test(text)) return "the file references an object that it does not contain.";
-  return text;
+/** Returns a sentence about an error that says whether it is a fault of the page. */
+function explain(error: unknown): string {
+  if (isPageFault(error)) return `This page failed with an internal error (${String(error)}), which does not mean that the file is damaged.`;
+  return error instanceof DOMException ? `This file cannot be read: ${sentenceOf(error)}` : sentenceOf(error);
 }
 /** Initial viewing direction for a lone normal map: almost perpendicular. */
 const kMapDirection = new Vector3(0.2, 0.12, 1).normalize();
@@ -140,6 +135,7 @@ export class App {
     this.#variant = -1;
     this.views.offered([]);
     stage.setGreen("none");
+    stage.say("");
     look.offerFile(null);
     stage.nameFiles(null);
     stage.viewport.show(new Scene());
@@ -200,7 +196,7 @@ export class App {
     } catch (error) {
       if (!isCurrent()) return;
       if (error instanceof WorkError && error.code === "stopped") return this.#stopped();
-      const sentence = isPageFault(error) ? `This page failed with an internal error (${String(error)}), which does not mean that the file is damaged.` : error instanceof DOMException ? `This file cannot be read: ${sentenceOf(error)}` : sentenceOf(error);
+      const sentence = explain(error);
       this.fail(missing.length > 0 ? `${lacking(missing)} (${sentence})` : sentence);
     }
   }
@@ -254,7 +250,6 @@ export class App {
   async #draw(model: ModelFiles, isCurrent: () => boolean, { isOther = false, read }: { isOther?: boolean; read?: Promise<Model> } = {}): Promise<void> {
     const { stage, progress } = this.views;
     progress.at("Drawing", 0.1);
-    stage.say("");
     try {
       const { parts, tree, motion, normalImages, variants, remarks: own } = await (read ?? loadModel(model, this.work, this.#variant));
       const remarks = [...this.#remarks, ...own];
@@ -289,7 +284,7 @@ export class App {
     } catch (error) {
       if (!isCurrent() || (error instanceof WorkError && error.code === "stopped")) throw error;
       document.documentElement.dataset.picture = "failed";
-      stage.say(`The picture cannot be drawn: ${plainly(error)}`);
+      stage.say(`There is no picture. ${explain(error)} The findings do not depend on the picture.`);
     }
   }
 

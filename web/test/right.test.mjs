@@ -167,7 +167,7 @@ test("an image that cannot be drawn is omitted, and the model is shown", { skip:
         writeFileSync(path, glb.finish());
         assert.equal(await openFile(tab, path), "ready", kind);
         assert.equal(await tab.evaluate(() => document.documentElement.dataset.picture), "drawn", kind);
-        assert.match(await tab.locator(".remark").textContent(), kind.includes("KTX2") ? /1 image cannot be displayed \(the image is neither KTX2 nor DDS\)/ : /1 image cannot be displayed,/, kind);
+        assert.match(await tab.locator(".remark").textContent(), kind.includes("KTX2") ? /1 image cannot be displayed \(it is neither KTX2 nor DDS\)/ : /1 image cannot be displayed,/, kind);
         assert.ok((await tab.locator(".finding").count()) > 0, kind);
       }
       await shoot(tab, "image-left-out");

@@ -23,7 +23,7 @@ const kMostInstances = 1000;
 export class LoaderError extends Error {}
 
 const byLoader = <T>(work: Promise<T>): Promise<T> => work.catch((error: unknown) => {
-  throw error instanceof WorkError ? error : new LoaderError(error instanceof Error ? error.message : String(error));
+  throw error instanceof WorkError ? error : new LoaderError(`The loader of three.js cannot read this file (${error instanceof Error ? error.message : String(error)}).`);
 });
 
 const decoded = (uri: string): string => {
