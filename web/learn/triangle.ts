@@ -53,7 +53,7 @@ export function showTriangle(host: HTMLElement, rows: HTMLElement, system: HTMLE
     figure.polygon(kSpace, points, `face ${side}`);
     drawGrid(d.tangent, d.bitangent);
     figure.word(kUv, [0.5, -0.1], "texture, v up");
-    figure.word(kSpace, [0.5, -0.1], "object space: N points toward you");
+    figure.word(kSpace, [0.5, -0.1], "object space, N toward you");
     uvs.forEach((uv, i) => figure.word(kUv, [uv[0], uv[1] + 0.1], names[i]!));
     points.forEach((point, i) => figure.word(kSpace, [point[0], point[1] + 0.1], names[i]!));
 
