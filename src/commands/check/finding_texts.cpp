@@ -85,7 +85,7 @@ constexpr std::array<CodeTexts, kFindingCodeCount> kCodes{{
     {"tangentsNotOrthogonal",
      "error",
      "Tangents are not perpendicular to the normals.",
-     "Bumps are lit slightly from the wrong direction.",
+     "Bumps look too flat, or are lit from a slightly wrong direction.",
      "Make those tangents perpendicular to the normals of the file: {}.",
      {"generate --repair"}},
     {"signsNotOne",
