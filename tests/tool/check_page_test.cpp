@@ -38,6 +38,27 @@ TEST(CheckPage, ShowsEachFindingBeforeAndAfter) {
     EXPECT_LT(page.size(), 2000000U);
 }
 
+TEST(CheckPage, HasThePicturesOfTheJsonReport) {
+    const TempFolder folder;
+    writeInvertedSquare(folder, "models/a.glb");
+    writeSquare(folder, "models/right.glb", 1);
+    writeInvertedSquare(folder, "models/z.glb");
+    const ToolRun run = runTool(folder, "check models --json --pictures --html report.html");
+    const Json document = Json::parse(run.out);
+    const std::string page = folder.read("report.html");
+    ASSERT_EQ(document["pictures"].size(), 6U) << run.out.substr(0, 2000);
+    for (std::size_t i = 0; i < 6; ++i) {
+        const Json& picture = document["pictures"][i];
+        const std::size_t file = i < 3 ? 0 : 2;
+        EXPECT_EQ(picture["file"], file);
+        EXPECT_EQ(document["files"][file]["findings"][picture["finding"].get<std::size_t>()]["code"], "signsInverted");
+        EXPECT_NE(page.find("data:image/png;base64," + picture["png"].get<std::string>()), std::string::npos) << i;
+    }
+    EXPECT_EQ(document["pictures"][1]["caption"], "after tspace generate --repair");
+    EXPECT_FALSE(Json::parse(runTool(folder, "check models --json").out).contains("pictures"));
+    EXPECT_EQ(runTool(folder, "check models --pictures").exit_code, 2);
+}
+
 TEST(CheckPage, EscapesTextOfFiles) {
     const TempFolder folder;
     writeInvertedSquare(folder, "a<b>&.glb");

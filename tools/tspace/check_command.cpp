@@ -31,6 +31,7 @@ struct CheckArguments {
     Color color = Color::automatic;
     BatchArguments batch = {};
     bool json = false;
+    bool pictures = false;
     bool quiet = false;
 };
 
@@ -48,6 +49,8 @@ void addCheckReporting(Command& command, CheckArguments& arguments) {
     command.add(kReporting, htmlOutput("--html", "FILE", arguments.html,
                                        "Write a self-contained HTML report to this file, with pictures of each finding "
                                        "before and after its fix."));
+    command.add(kReporting, flag("--pictures", arguments.pictures,
+                                 "With --json: add the pictures of --html to the JSON, as PNG in base64."));
     command.add(kReporting, choice("--color", "WHEN", kColors, arguments.color,
                                    "Color the severities: always, never, or auto (on a terminal, unless the "
                                    "environment variable NO_COLOR is set)."));
@@ -141,7 +144,9 @@ ExitCode runCheck(const CheckArguments& arguments) {
         if (sarif_to_stdout) {
             report.text = report::checkSarif(files.outcomes, exit_code, TSPACE_DOCS_URL);
         } else if (arguments.json) {
-            report.text = report::checkJson(files.outcomes, exit_code, arguments.request.fail_on);
+            const Json pictures =
+                arguments.pictures ? picturesJson(files.outcomes, options.file, progressOf("pictures")) : Json();
+            report.text = report::checkJson(files.outcomes, exit_code, arguments.request.fail_on, pictures);
         } else if (wants_text && files.outcomes.size() > 1) {
             report.text = fitted(report::checkSummary(files.outcomes, in_color));
         }
@@ -172,6 +177,7 @@ Command checkCommand() {
                      "tspace check --quiet --sarif findings.sarif models/",
                      "tspace check --html report.html helmet.glb"},
         .finish = [&arguments](const Given&) -> std::string {
+            if (arguments.pictures && !arguments.json) return "--pictures needs --json";
             return arguments.json && arguments.sarif == "-" ? "--json and --sarif - cannot both write to stdout" : "";
         },
     };

@@ -4,8 +4,7 @@
 // links. References of models to files outside their folder, including links, are rejected by the tool itself, and also
 // by the native tool, which bakes.
 import { spawn } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, readdirSync, realpathSync, rmSync, statSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { existsSync, readFileSync, readdirSync, realpathSync, statSync } from "node:fs";
 import { basename, dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { methodNames } from "../src/names.js";
@@ -28,8 +27,8 @@ npx -y -p tspace -p @modelcontextprotocol/sdk tspace mcp FOLDER
 `;
 
 const program = fileURLToPath(new URL("tspace.js", import.meta.url));
-/** Limits of one call: time, characters of a report, pictures. */
-const limits = { milliseconds: 600_000, characters: 100_000, pictures: 8 };
+/** Limits of one call: time, characters of its output and of a report without pictures, pictures. */
+const limits = { milliseconds: 600_000, output: 1 << 28, characters: 100_000, pictures: 8 };
 
 const text = (description) => ({ type: "string", description });
 const flag = (description) => ({ type: "boolean", description });
@@ -51,7 +50,7 @@ const tools = {
     description: "Reports errors in the normals, tangents, UVs and normal maps of a model, how to fix each one, and pictures before and after the fix. No file is changed.",
     properties: { file: model, pictures: flag("Return up to 8 pictures of the findings. Default: true.") },
     required: ["file"],
-    words: ({ file, pictures = true }, place, folder) => [place.input(file), ...(pictures ? ["--html", join(folder, "page.html")] : [])],
+    words: ({ file, pictures = true }, place) => [place.input(file), ...(pictures ? ["--pictures"] : [])],
   },
   identify: {
     description: "Reports which method and which convention made the tangents of a model. No file is changed.",
@@ -140,9 +139,7 @@ function checked(given, { properties, required }) {
   return given;
 }
 
-/**
- * Cleanup functions for calls that are unfinished when this process ends: they end the program and remove its folder.
- */
+/** Functions that end the programs of unfinished calls. */
 const unfinished = new Set();
 
 /** Runs a program; returns its output, up to a limit, and its exit code. */
@@ -152,35 +149,27 @@ function ended(command, words, cwd, folders, signal) {
     const child = spawn(command, words, { cwd, env, signal, timeout: limits.milliseconds, stdio: ["ignore", "pipe", "pipe"] });
     const stop = () => child.kill();
     unfinished.add(stop);
-    const printed = ["stdout", "stderr"].map((name) => {
-      const text = { value: "", length: 0 };
-      child[name].setEncoding("utf8").on("data", (part) => {
-        text.value += part.slice(0, limits.characters - text.value.length);
-        text.length += part.length;
-      });
-      return text;
-    });
+    const printed = { stdout: "", stderr: "" };
+    for (const name of Object.keys(printed)) child[name].setEncoding("utf8").on("data", (part) => printed[name].length < limits.output && (printed[name] += part));
     child.on("error", failed);
     child.on("close", (code, ending) => {
       unfinished.delete(stop);
-      const [stdout, stderr] = printed.map(({ value, length }) => (length > value.length ? `${value}\n(truncated: the full text has ${length} characters)` : value));
-      done({ code, ending, stdout, stderr });
+      done({ code, ending, ...printed });
     });
   });
 }
 
-/** Returns the pictures of a page of `check`, each preceded by a line that describes its finding. */
-function picturesOf(page) {
-  const content = [];
-  let left = limits.pictures, dropped = 0;
-  for (const [article] of page.matchAll(/<article[\s\S]*?<\/article>/g)) {
-    const code = article.match(/<h3><b>(\w+)<\/b> (.+?)<\/h3>/);
-    for (const [, caption, data] of article.matchAll(/<img alt="([^"]*)"[^>]*?src="data:image\/png;base64,([^"]*)"/g)) {
-      if (left-- > 0) content.push({ type: "text", text: `${code?.[1]} ${code?.[2]}, ${caption}:` }, { type: "image", data, mimeType: "image/png" });
-      else ++dropped;
-    }
+const cut = (text) => (text.length > limits.characters ? `${text.slice(0, limits.characters)}\n(truncated: the full text has ${text.length} characters)` : text);
+
+/** Returns a report as the content of an answer: the text, then the pictures of its findings with their captions. */
+function contentOf(output, hasPictures) {
+  if (!hasPictures) return [{ type: "text", text: cut(output) }];
+  const { pictures, ...report } = JSON.parse(output), content = [{ type: "text", text: cut(JSON.stringify(report, null, 2)) }];
+  for (const { file, finding, caption, png } of pictures.slice(0, limits.pictures)) {
+    const { severity, code } = report.files[file].findings[finding];
+    content.push({ type: "text", text: `${severity} ${code}, ${caption}:` }, { type: "image", data: png, mimeType: "image/png" });
   }
-  if (dropped) content.push({ type: "text", text: `${dropped} more pictures were omitted.` });
+  if (pictures.length > limits.pictures) content.push({ type: "text", text: `${pictures.length - limits.pictures} more pictures were omitted.` });
   return content;
 }
 
@@ -188,22 +177,12 @@ async function call(name, given, { root, native, signal }) {
   if (!Object.hasOwn(tools, name)) throw new Refusal(`unknown tool ${name}; the tools are ${Object.keys(tools).join(", ")}`);
   const tool = tools[name];
   if (tool.isNative && !native) throw new Refusal("bake needs the native tspace program; start this server with tspace mcp FOLDER --tool PROGRAM");
-  const own = realpathSync(mkdtempSync(join(tmpdir(), "tspace-mcp-")));
-  const remove = () => rmSync(own, { recursive: true, force: true });
-  unfinished.add(remove);
-  try {
-    const words = [name, ...tool.words(checked(given, tool), placesIn(root), own), "--json"];
-    const run = tool.isNative ? ended(native, words, root, [], signal) : ended(process.execPath, [program, ...words], root, [root, own], signal);
-    const { code, ending, stdout, stderr } = await run;
-    if (ending) throw new Refusal(`${name} was stopped (${ending}); its time limit is ${limits.milliseconds / 60_000} minutes`);
-    const page = join(own, "page.html");
-    const content = [stdout, stderr].filter((part) => part.trim() !== "").map((part) => ({ type: "text", text: part }));
-    if (existsSync(page)) content.push(...picturesOf(readFileSync(page, "utf8")));
-    return { content, isError: code > 1 };
-  } finally {
-    unfinished.delete(remove);
-    remove();
-  }
+  const words = [name, ...tool.words(checked(given, tool), placesIn(root)), "--json"];
+  const run = tool.isNative ? ended(native, words, root, [], signal) : ended(process.execPath, [program, ...words], root, [root], signal);
+  const { code, ending, stdout, stderr } = await run;
+  if (ending) throw new Refusal(`${name} was stopped (${ending}); its time limit is ${limits.milliseconds / 60_000} minutes`);
+  const content = [...(stdout.trim() ? contentOf(stdout, words.includes("--pictures")) : []), ...(stderr.trim() ? [{ type: "text", text: cut(stderr) }] : [])];
+  return { content, isError: code > 1 };
 }
 
 function readWords(words) {

@@ -229,10 +229,12 @@ Json checkedFileJson(const CheckOutcome& outcome) {
     return json;
 }
 
-std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on) {
+std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on,
+                      const Json& pictures) {
     Json json = documentJson("tspace.check/1", exit_code == ExitCode::done, exit_code);
     json["failOn"] = severityName(fail_on);
     json["files"] = listJson(outcomes, checkedFileJson);
+    if (!pictures.is_null()) json["pictures"] = pictures;
     return jsonText(json);
 }
 

@@ -14,7 +14,9 @@ using CheckOutcome = Outcome<CheckReport>;
 
 /// Returns the JSON of one file in the report.
 Json checkedFileJson(const CheckOutcome& outcome);
-std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on);
+/// `pictures`: pictures of the findings, or null.
+std::string checkJson(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, Severity fail_on,
+                      const Json& pictures = nullptr);
 /// Returns the report as SARIF 2.1.0, for CI systems. `docs_url`: location of docs/, which each rule links to.
 std::string checkSarif(const std::vector<CheckOutcome>& outcomes, ExitCode exit_code, const std::string& docs_url);
 

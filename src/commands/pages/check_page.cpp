@@ -15,6 +15,7 @@
 #include "commands/shared/report.h"
 #include "commands/shared/request.h"
 #include "model/io/file_error.h"
+#include "model/io/uri.h"
 
 namespace tspace {
 namespace {
@@ -162,23 +163,36 @@ std::string whereHtml(const Finding& finding) {
 /// Returns whether a finding is about morph targets, which pictures of the base mesh do not show.
 bool concernsTargets(const Finding& finding) { return finding.place.find("/targets/") != std::string::npos; }
 
-std::string figuresOf(const Finding& finding, const FindingPicture& picture) {
-    if (picture.before.empty())
-        return picture.why_no_after.empty()
-                   ? ""
-                   : noFigureHtml("No pictures: " + picture.command + " changes nothing that is visible in a picture" +
-                                  (concernsTargets(finding) ? " of the base mesh; the fault appears when it deforms."
-                                                            : " of this primitive."));
+/// The pictures of a finding with their captions, and a sentence that explains a missing picture.
+struct Figures {
+    struct Figure {
+        std::vector<std::uint8_t> png;
+        std::string caption;
+    };
+    std::vector<Figure> figures = {};
+    std::string remark = {};
+};
+
+Figures figuresOf(const Finding& finding, FindingPicture&& picture) {
+    if (picture.before.empty()) {
+        if (picture.why_no_after.empty()) return {};
+        return {.remark = "No pictures: " + picture.command + " changes nothing that is visible in a picture" +
+                          (concernsTargets(finding) ? " of the base mesh; the fault appears when it deforms."
+                                                    : " of this primitive.")};
+    }
     const std::string command = "after " + picture.command;
-    std::string figures = figureHtml(picture.before, kPlaceWidth, kPlaceHeight,
-                                     picture.is_clay ? "as in the file, without base color" : "as in the file");
-    if (!picture.after.empty())
-        return figures + figureHtml(picture.after, kPlaceWidth, kPlaceHeight, command) +
-               figureHtml(picture.difference, kPlaceWidth, kPlaceHeight, picture.caption);
-    const std::string why = picture.command.empty()
-                                ? "No picture of the fix was made, because no tspace command performs it."
-                                : "There is no picture " + command + ". " + picture.why_no_after;
-    return figures + noFigureHtml(why);
+    Figures result;
+    result.figures.push_back(
+        {std::move(picture.before), picture.is_clay ? "as in the file, without base color" : "as in the file"});
+    if (!picture.after.empty()) {
+        result.figures.push_back({std::move(picture.after), command});
+        result.figures.push_back({std::move(picture.difference), std::move(picture.caption)});
+    } else {
+        result.remark = picture.command.empty()
+                            ? "No picture of the fix was made, because no tspace command performs it."
+                            : "There is no picture " + command + ". " + picture.why_no_after;
+    }
+    return result;
 }
 
 /// Draws the pictures of one file until the size limit is reached; draws none if the file cannot be drawn. The file is
@@ -190,22 +204,24 @@ class PictureSource {
 
     [[nodiscard]] const std::string& input() const { return input_; }
 
-    std::string html(const Finding& finding) {
+    Figures draw(const Finding& finding) {
         if (finding.place.empty() || is_exhausted_ || input_ == "-") return {};
-        std::string figures;
+        Figures result;
         if (progress_) progress_("drawing pictures", count_, kMaxPicturedFindings);
         try {
             if (!pictures_) pictures_ = std::make_unique<FindingPictures>(input_, file_);
-            figures = figuresOf(finding, pictures_->draw(finding));
+            result = figuresOf(finding, pictures_->draw(finding));
         } catch (const FileError&) {
             // The error of the file has already been reported.
             is_exhausted_ = true;
         }
-        if (figures.empty()) return {};
-        is_exhausted_ = is_exhausted_ || figures.size() > room_ || ++count_ >= kMaxPicturedFindings;
-        if (figures.size() > room_) return {};
-        room_ -= figures.size();
-        return figuresHtml(figures);
+        if (result.figures.empty()) return result;
+        std::size_t size = 0;
+        for (const Figures::Figure& figure : result.figures) size += (figure.png.size() + 2) / 3 * 4;  // as base64
+        is_exhausted_ = is_exhausted_ || size > room_ || ++count_ >= kMaxPicturedFindings;
+        if (size > room_) return {};
+        room_ -= size;
+        return result;
     }
 
   private:
@@ -217,6 +233,14 @@ class PictureSource {
     bool is_exhausted_ = false;
 };
 
+std::string picturesHtml(const Figures& pictures) {
+    std::string html;
+    for (const Figures::Figure& figure : pictures.figures)
+        html += figureHtml(figure.png, kPlaceWidth, kPlaceHeight, figure.caption);
+    if (!pictures.remark.empty()) html += noFigureHtml(pictures.remark);
+    return figuresHtml(html);
+}
+
 /// Returns a finding as HTML. `pictures` may be null: no pictures.
 std::string findingHtml(const Finding& finding, PictureSource* pictures) {
     std::string html = "<article class=\"" + std::string(severityName(finding.severity)) + "\">\n<h3><b>" +
@@ -224,7 +248,7 @@ std::string findingHtml(const Finding& finding, PictureSource* pictures) {
     html += "<p>" + htmlText(finding.message) + "</p>\n" + whereHtml(finding);
     html += "<p>Fix: " + htmlText(finding.remedy) + "</p>\n";
     if (pictures == nullptr) return html + "</article>\n";
-    html += pictures->html(finding);
+    html += picturesHtml(pictures->draw(finding));
     if (const char* look = findingView(finding.code);
         *look != '\0' && pictures->input() != "-" && !finding.place.empty())
         html += "<p>A larger picture: <code>" +
@@ -276,6 +300,24 @@ std::string overviewHtml(const std::vector<report::CheckOutcome>& outcomes) {
 }
 
 }  // namespace
+
+Json picturesJson(const std::vector<report::CheckOutcome>& outcomes, const FileOptions& file,
+                  const Progress& progress) {
+    Json list = Json::array();
+    std::size_t left = kMaxPageBytes;
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        if (!outcomes[i].result || outcomes[i].result->image) continue;
+        PictureSource source(outcomes[i].input, file, std::min(left, kMaxModelBytes), progress);
+        for (std::size_t k = 0; k < outcomes[i].result->findings.size(); ++k) {
+            for (const auto& [png, caption] : source.draw(outcomes[i].result->findings[k]).figures) {
+                const std::string text = encodeBase64({png.begin(), png.end()});
+                left -= std::min(left, text.size());
+                list.push_back(Json::object({{"file", i}, {"finding", k}, {"caption", caption}, {"png", text}}));
+            }
+        }
+    }
+    return list;
+}
 
 std::string checkedFileHtml(const report::CheckOutcome& outcome, std::size_t number, const FileOptions& file,
                             std::size_t room, const Progress& progress) {

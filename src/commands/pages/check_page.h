@@ -67,6 +67,10 @@ class FindingPictures {
     std::unique_ptr<Model> model_;
 };
 
+/// Returns the pictures of checkPage as JSON: a list with the indexes of file and finding, the caption, and the PNG.
+Json picturesJson(const std::vector<report::CheckOutcome>& outcomes, const FileOptions& file,
+                  const Progress& progress = {});
+
 /// Returns the section of a page about one file, with a heading. `room`: limit for pictures, in bytes.
 std::string checkedFileHtml(const report::CheckOutcome& outcome, std::size_t number, const FileOptions& file,
                             std::size_t room, const Progress& progress = {});
