@@ -131,8 +131,8 @@ function followLink(): void {
   // The first view shows the worst finding.
   const worst = check && worstOf(check);
   const isDrawn = document.documentElement.dataset.picture === "drawn";
-  // Without colors the relief of the samples stands out, and with it their faults.
-  look.suggestColors(!(worst && sampleNamed(app.model?.name)));
+  // Without colors the relief of the samples stands out, and with it their faults. A fixed file is shown like its model.
+  if (back.hidden) look.suggestColors(!(worst && sampleNamed(app.model?.name)));
   if (worst && isDrawn && finding === undefined && split === undefined && !camera) place.aim(check!.findings.filter(({ code }) => code === worst.code));
   if (finding !== undefined) findings.openFinding(finding);
   if (wanted) stage.setLook(wanted);

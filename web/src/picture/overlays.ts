@@ -91,6 +91,8 @@ const regionMaterial = new MeshBasicMaterial({ color: 0xff2d6f, transparent: tru
 
 export interface Place {
   outline: Group;
+  /** The part of `outline` that consists of lines. */
+  rim: LineSegments;
   center: Vector3;
   radius: number;
   /** Outward normal of each triangle; its length is the triangle's area. */
@@ -173,17 +175,18 @@ export function outlineTriangles(drawn: Drawn, triangles: number[]): Place {
   }
   const outline = new Group();
   const geometry = (data: number[]) => new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(data), 3));
-  for (const object of [new Mesh(geometry(faces), triangles.length <= kMostEdges ? fillMaterial : regionMaterial), new LineSegments(geometry(edges), triangles.length <= kMostEdges ? outlineMaterial : rimMaterial)]) {
+  const rim = new LineSegments(geometry(edges), triangles.length <= kMostEdges ? outlineMaterial : rimMaterial);
+  for (const object of [new Mesh(geometry(faces), triangles.length <= kMostEdges ? fillMaterial : regionMaterial), rim]) {
     object.frustumCulled = false;
     outline.add(object);
   }
   const center = points.reduce((sum, point) => sum.add(point), new Vector3()).divideScalar(Math.max(1, points.length));
   const radius = points.reduce((most, point) => Math.max(most, point.distanceTo(center)), 0);
-  return { outline, center, radius, faces: outward };
+  return { outline, rim, center, radius, faces: outward };
 }
 
 /** Outlines the bounding box of a part, at its first placement. */
-export function outlinePart(drawn: Drawn): Omit<Place, "faces"> {
+export function outlinePart(drawn: Drawn): Pick<Place, "outline" | "center" | "radius"> {
   const p = drawn.corners.positions, box = new Box3(), point = new Vector3();
   for (let i = 0; i < p.length; i += 3) if (Number.isFinite(point.fromArray(p, i).lengthSq())) box.expandByPoint(point);
   const helper = new Box3Helper(box);

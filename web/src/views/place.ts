@@ -90,15 +90,17 @@ export class PlaceView {
   /**
    * Moves the camera to where most of the findings' area is visible, with the split line at the center of the visible
    * difference: one half shows the file, the other half the correct frames. Of the best view and the one mirrored in x,
-   * selects the view whose split line is closer to the center of the picture.
+   * selects the view whose split line is closer to the center of the picture. Marks the boundary of the affected
+   * triangles, unless most triangles are affected.
    */
   aim(findings: Finding[]): void {
-    const faces: Face[] = [], { scene } = this.viewport;
+    const faces: Face[] = [], { scene } = this.viewport, rims = new Group();
     for (const finding of findings.slice(0, kMostAimed)) {
       const drawn = finding.place === "" ? undefined : scene.find(finding.mesh, finding.primitive);
       if (!drawn) continue;
       const triangles = trianglesOf(drawn, finding), step = Math.ceil(triangles.length / kMostFaces);
       faces.push(...facesOf(drawn, triangles.filter((_, i) => i % step === 0)));
+      if (triangles.length > 0 && finding.surfaceShare < kEverywhere) rims.add(outlineTriangles(drawn, triangles).rim);
     }
     const toEye = this.viewport.camera.position.clone().sub(this.viewport.target), isEverywhere = findings[0].surfaceShare >= kEverywhere, toward = isEverywhere ? toEye.normalize() : bestDirection(faces.map(({ out }) => out), toEye);
     if (!toward) return this.setSplit(0.5);
@@ -111,6 +113,7 @@ export class PlaceView {
     const camera = this.viewport.reset(), middle = this.viewport.middleOfDifference(camera);
     if (middle === null) this.#splitAt(faces, camera);
     else this.setSplit(inPicture(middle));
+    this.#outline = replaceOverlay(this.viewport, this.#outline, rims);
   }
 
   /** Moves the split line to the center of the visible faces. */
@@ -130,7 +133,7 @@ export class PlaceView {
   show(findings: Finding[], isOne: boolean, isOther: boolean): number {
     this.clear();
     this.setLook(lookOf(findings[0]));
-    const { scene } = this.viewport, outline = new Group(), places: Omit<Place, "outline">[] = [], faces: Face[] = [];
+    const { scene } = this.viewport, outline = new Group(), places: Pick<Place, "center" | "radius" | "faces">[] = [], faces: Face[] = [];
     let outlined = 0, seen = 0, isWhole = false;
     for (const finding of findings) {
       const drawn = finding.place === "" ? undefined : scene.find(finding.mesh, finding.primitive);
@@ -153,7 +156,7 @@ export class PlaceView {
     return outlined;
   }
 
-  #fly(places: Omit<Place, "outline">[]): Camera {
+  #fly(places: Pick<Place, "center" | "radius" | "faces">[]): Camera {
     const center = places.reduce((sum, place) => sum.add(place.center), new Vector3()).divideScalar(places.length);
     const radius = Math.max(...places.map((place) => place.center.distanceTo(center) + place.radius));
     if (!(radius > 0)) return this.viewport.camera;
