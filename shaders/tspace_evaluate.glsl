@@ -43,6 +43,7 @@ const uint tspace_first_result = 20u;   // first result of this dispatch
 const uint tspace_no_tangent = 0x80000000u;
 const uint tspace_no_normal = 0x40000000u;
 const uint tspace_next_part = 0xffffffffu;
+const uint tspace_doubles = 0xffffffffu;
 const float tspace_least_normal = 1.17549435e-38;
 const float tspace_greatest = 3.4e38;
 
@@ -114,6 +115,15 @@ float tspace_angle(float x, float y) {
 
 // ---- inputs of a pose
 
+// Returns v. Compilers cannot know that v is unchanged, because they do not know the version in the first word of a plan,
+// so they cannot fuse or reorder the operations before and after. The operations between such calls are additions,
+// subtractions and multiplications, which round equally on all devices.
+vec3 tspace_kept(vec3 v) {
+    uint zero = tspace_plan[0] ^ 1u;
+    return vec3(uintBitsToFloat(floatBitsToUint(v.x) ^ zero), uintBitsToFloat(floatBitsToUint(v.y) ^ zero),
+                uintBitsToFloat(floatBitsToUint(v.z) ^ zero));
+}
+
 float tspace_shortAt(uint byte) {
     uint word = tspace_positions[byte >> 2u];
     if ((byte & 2u) == 0u) {
@@ -134,9 +144,9 @@ vec3 tspace_storedPosition(uint vertex_number) {
                 uintBitsToFloat(tspace_positions[word + 2u]));
 }
 
-vec3 tspace_deformVector(uint word) {
-    return vec3(uintBitsToFloat(tspace_deform[word]), uintBitsToFloat(tspace_deform[word + 1u]),
-                uintBitsToFloat(tspace_deform[word + 2u]));
+vec3 tspace_deformVector(uint word, uint step) {
+    return vec3(uintBitsToFloat(tspace_deform[word]), uintBitsToFloat(tspace_deform[word + step]),
+                uintBitsToFloat(tspace_deform[word + 2u * step]));
 }
 
 vec3 tspace_morphed(vec3 position, uint vertex_number) {
@@ -146,7 +156,8 @@ vec3 tspace_morphed(vec3 position, uint vertex_number) {
         float weight = uintBitsToFloat(tspace_deform[tspace_setting(tspace_morph_weights) + shape]);
         uint row = 3u * (shape * tspace_setting(tspace_vertex_count) + vertex_number);
         if (weight != 0.0) {
-            sum += weight * tspace_deformVector(tspace_setting(tspace_morph_deltas) + row);
+            sum = tspace_kept(sum +
+                              tspace_kept(weight * tspace_deformVector(tspace_setting(tspace_morph_deltas) + row, 1u)));
         }
     }
     return sum;
@@ -159,10 +170,11 @@ vec3 tspace_skinned(vec3 position, uint vertex_number) {
         uint joint = tspace_deform[tspace_setting(tspace_skin_joints) + 4u * vertex_number + i];
         uint row = tspace_setting(tspace_skin_matrices) + 12u * joint;
         if (weight != 0.0) {
-            vec3 moved = vec3(dot(tspace_deformVector(row), position) + uintBitsToFloat(tspace_deform[row + 3u]),
-                              dot(tspace_deformVector(row + 4u), position) + uintBitsToFloat(tspace_deform[row + 7u]),
-                              dot(tspace_deformVector(row + 8u), position) + uintBitsToFloat(tspace_deform[row + 11u]));
-            sum += weight * moved;
+            vec3 moved = tspace_kept(position.x * tspace_deformVector(row, 4u));
+            moved = tspace_kept(moved + tspace_kept(position.y * tspace_deformVector(row + 1u, 4u)));
+            moved = tspace_kept(moved + tspace_kept(position.z * tspace_deformVector(row + 2u, 4u)));
+            moved = tspace_kept(moved + tspace_deformVector(row + 3u, 4u));
+            sum = tspace_kept(sum + tspace_kept(weight * moved));
         }
     }
     return sum;
@@ -203,6 +215,9 @@ struct tspace_Corner {
     vec3 e2;        // second edge: from corner 0 to corner 2
     vec3 next;      // from this corner to the next one
     vec3 previous;  // from this corner to the previous one
+    vec3 p0;        // positions of the triangle
+    vec3 p1;
+    vec3 p2;
     uint vertex_number;
     uint uvs;  // offset of the UV coefficients in tspace_plan
 };
@@ -223,6 +238,9 @@ tspace_Corner tspace_cornerOf(uint entry) {
         p2 = tspace_positionOf(tspace_plan[at + i]);
     }
     tspace_Corner corner;
+    corner.p0 = p0;
+    corner.p1 = p1;
+    corner.p2 = p2;
     corner.e1 = p1 - p0;
     corner.e2 = p2 - p0;
     corner.next = corner.e1;
@@ -242,6 +260,12 @@ tspace_Corner tspace_cornerOf(uint entry) {
 
 float tspace_largest(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
+// Returns an even power of two near 1 / size. Its square root is a power of two too.
+float tspace_inverseSize(float size) {
+    uint exponent = clamp(floatBitsToUint(size) >> 23u, 1u, 253u);
+    return uintBitsToFloat(((254u - exponent) | 1u) << 23u);
+}
+
 // Returns a power of two that scales the edges of a result to about 1, so that products stay in range; 0 without edges.
 float tspace_scaleOf(uint begin, uint end) {
     float largest = 0.0;
@@ -258,8 +282,7 @@ float tspace_scaleOf(uint begin, uint end) {
     if (largest == 0.0) {
         return 0.0;
     }
-    uint exponent = clamp(floatBitsToUint(largest) >> 23u, 1u, 253u);
-    return uintBitsToFloat((254u - exponent) << 23u);
+    return tspace_inverseSize(largest);
 }
 
 // ---- normals
@@ -351,7 +374,235 @@ vec3 tspace_normalAt(uint entry, uint vertex_number) {
     return vec3(made.x, made.y, made.z);
 }
 
-// ---- tangents
+// ---- double precision, in integers: lengyel, where the library computes in double precision, with the same bits
+
+// The number (high, low) * 2^exponent, negated if sign is 1. The first bit of `high` is 1, unless the number is 0.
+struct tspace_Double {
+    uint sign;
+    int exponent;
+    uint high;
+    uint low;
+};
+
+// Returns the number (high, low) * 2^exponent rounded to 53 bits, to the nearest, or to the even one of two.
+tspace_Double tspace_rounded(uint sign, int exponent, uint high, uint low) {
+    tspace_Double made;
+    made.sign = sign;
+    made.exponent = exponent;
+    made.high = high;
+    made.low = low;
+    if ((high | low) == 0u) {
+        return made;
+    }
+    while (made.high < 0x80000000u) {
+        made.high = (made.high << 1u) | (made.low >> 31u);
+        made.low = made.low << 1u;
+        made.exponent -= 1;
+    }
+    uint rest = made.low & 2047u;
+    made.low -= rest;
+    if (rest > 1024u || (rest == 1024u && (made.low & 2048u) != 0u)) {
+        made.low += 2048u;
+        if (made.low == 0u) {
+            made.high += 1u;
+        }
+        if (made.high == 0u) {
+            made.high = 0x80000000u;
+            made.exponent += 1;
+        }
+    }
+    return made;
+}
+
+// Returns a float as a double.
+tspace_Double tspace_widened(float x) {
+    tspace_Double made;
+    made.sign = floatBitsToUint(x) >> 31u;
+    made.exponent = int((floatBitsToUint(x) >> 23u) & 255u) - 190;
+    made.high = (floatBitsToUint(x) << 8u) | 0x80000000u;
+    made.low = 0u;
+    if (made.exponent == -190) {
+        made.exponent = -189;
+        made.high = (floatBitsToUint(x) << 9u) >> 1u;
+        while (made.high != 0u && made.high < 0x80000000u) {
+            made.high = made.high << 1u;
+            made.exponent -= 1;
+        }
+    }
+    return made;
+}
+
+// Returns a double of the plan: a word with its high bits, and one with its low bits.
+tspace_Double tspace_storedDouble(uint word) {
+    uint bits = tspace_plan[word];
+    tspace_Double made;
+    made.sign = bits >> 31u;
+    made.exponent = int((bits >> 20u) & 2047u) - 1086;
+    made.high = 0u;
+    made.low = tspace_plan[word + 1u] << 11u;
+    if (made.exponent != -1086) {
+        made.high = 0x80000000u | (bits << 11u) | (tspace_plan[word + 1u] >> 21u);
+    }
+    return made;
+}
+
+// Returns the nearest float to d * 2^shift.
+float tspace_narrowed(tspace_Double d, int shift) {
+    int field = clamp(d.exponent + shift + 190, -31, 255);
+    uint count = 8u;
+    if (field < 1) {
+        count = uint(9 - field);
+        field = 1;
+    }
+    uint bits = d.high;
+    uint last = 0u;
+    uint lost = d.low;
+    for (uint i = 0u; i < count; ++i) {
+        lost = lost | last;
+        last = bits & 1u;
+        bits = bits >> 1u;
+    }
+    if (last != 0u && (lost | (bits & 1u)) != 0u) {
+        bits += 1u;
+    }
+    if (d.high != 0u) {
+        bits += uint(field - 1) << 23u;
+    }
+    return uintBitsToFloat(min(bits, 0x7f800000u) | (d.sign << 31u));
+}
+
+// Returns a * b.
+tspace_Double tspace_product(tspace_Double a, tspace_Double b) {
+    uint a_high = a.high >> 1u;
+    uint a_low = (a.high << 31u) | (a.low >> 1u);
+    uint bits = b.low >> 11u;
+    uint high = 0u;
+    uint low = 0u;
+    uint lost = 0u;
+    for (uint i = 0u; i < 53u; ++i) {
+        if (i == 21u) {
+            bits = b.high;
+        }
+        if ((bits & 1u) != 0u) {
+            high += a_high;
+            low += a_low;
+            if (low < a_low) {
+                high += 1u;
+            }
+        }
+        bits = bits >> 1u;
+        lost = lost | (low & 1u);
+        low = (low >> 1u) | (high << 31u);
+        high = high >> 1u;
+    }
+    return tspace_rounded(a.sign ^ b.sign, a.exponent + b.exponent + 65, high, low | lost);
+}
+
+tspace_Double tspace_negated(tspace_Double a) {
+    tspace_Double made = a;
+    made.sign = 1u - a.sign;
+    return made;
+}
+
+// Returns whether |a| < |b|.
+bool tspace_isSmaller(tspace_Double a, tspace_Double b) {
+    if (a.exponent != b.exponent) {
+        return a.exponent < b.exponent;
+    }
+    return a.high < b.high || (a.high == b.high && a.low < b.low);
+}
+
+// Returns a + b.
+tspace_Double tspace_total(tspace_Double a, tspace_Double b) {
+    if (b.high == 0u) {
+        return a;
+    }
+    if (a.high == 0u) {
+        return b;
+    }
+    tspace_Double large = a;
+    tspace_Double small = b;
+    if (tspace_isSmaller(a, b)) {
+        large = b;
+        small = a;
+    }
+    uint lost = 0u;
+    uint count = min(uint(large.exponent - small.exponent), 64u);
+    for (uint i = 0u; i <= count; ++i) {
+        lost = lost | (small.low & 1u);
+        small.low = (small.low >> 1u) | (small.high << 31u);
+        small.high = small.high >> 1u;
+    }
+    small.low = small.low | lost;
+    uint low = (large.high << 31u) | (large.low >> 1u);
+    uint high = large.high >> 1u;
+    if (large.sign == small.sign) {
+        high += small.high;
+        low += small.low;
+        if (low < small.low) {
+            high += 1u;
+        }
+    }
+    if (large.sign != small.sign) {
+        high -= small.high;
+        if (low < small.low) {
+            high -= 1u;
+        }
+        low -= small.low;
+    }
+    return tspace_rounded(large.sign, large.exponent + 1, high, low);
+}
+
+tspace_Double tspace_difference(tspace_Double a, tspace_Double b) { return tspace_total(a, tspace_negated(b)); }
+
+// Returns the next axis as x. Loops that rotate vectors, here and below, call each function once, because compilers
+// inline all calls.
+vec3 tspace_turned(vec3 v) { return vec3(v.y, v.z, v.x); }
+
+// Returns whether the determinant of three vectors is negative.
+bool tspace_isMirrored(vec3 normal, vec3 along_u, vec3 along_v) {
+    vec3 n = normal;
+    vec3 s = along_u;
+    vec3 t = along_v;
+    tspace_Double volume = tspace_widened(0.0);
+    for (uint i = 0u; i < 3u; ++i) {
+        tspace_Double first = tspace_product(tspace_widened(n.y), tspace_widened(s.z));
+        tspace_Double second = tspace_product(tspace_widened(n.z), tspace_widened(s.y));
+        volume = tspace_total(volume, tspace_product(tspace_difference(first, second), tspace_widened(t.x)));
+        n = tspace_turned(n);
+        s = tspace_turned(s);
+        t = tspace_turned(t);
+    }
+    return volume.sign == 1u && volume.high != 0u;
+}
+
+// Returns s without its component along the unit vector n, times a power of two.
+vec3 tspace_wideRest(vec3 normal, vec3 along_u) {
+    vec3 n = normal;
+    vec3 s = along_u;
+    tspace_Double along = tspace_widened(0.0);
+    for (uint i = 0u; i < 3u; ++i) {
+        along = tspace_total(along, tspace_product(tspace_widened(n.x), tspace_widened(s.x)));
+        n = tspace_turned(n);
+        s = tspace_turned(s);
+    }
+    tspace_Double x = along;
+    tspace_Double y = along;
+    tspace_Double z = along;
+    int largest = -2000;
+    for (uint k = 0u; k < 3u; ++k) {
+        x = y;
+        y = z;
+        z = tspace_difference(tspace_widened(s.x), tspace_product(along, tspace_widened(n.x)));
+        if (z.high != 0u) {
+            largest = max(largest, z.exponent);
+        }
+        n = tspace_turned(n);
+        s = tspace_turned(s);
+    }
+    int shift = -64 - largest;
+    return vec3(tspace_narrowed(x, shift), tspace_narrowed(y, shift), tspace_narrowed(z, shift));
+}
 
 // Sums over the corners of a result. `a`: tangents. `b`: a second sum, for fast and lengyel.
 struct tspace_Sums {
@@ -359,12 +610,76 @@ struct tspace_Sums {
     vec3 b;
 };
 
+// Returns a UV coefficient of the plan.
+tspace_Double tspace_coefficient(bool is_double, uint word) {
+    if (is_double) {
+        return tspace_storedDouble(word);
+    }
+    return tspace_widened(uintBitsToFloat(tspace_plan[word]));
+}
+
+// Returns dP/du and dP/dv of the triangle of a corner, rounded to floats.
+tspace_Sums tspace_wideDerivatives(tspace_Corner corner) {
+    bool is_double = tspace_plan[corner.uvs] == tspace_doubles;
+    uint word = corner.uvs;
+    uint step = 1u;
+    tspace_Double factor = tspace_widened(1.0);
+    if (is_double) {
+        word = tspace_plan[corner.uvs + 1u] + 2u;
+        step = 2u;
+        factor = tspace_storedDouble(word - 2u);
+    }
+    vec3 o = corner.p0;
+    vec3 p = corner.p1;
+    vec3 q = corner.p2;
+    tspace_Sums made;
+    made.a = o;
+    made.b = o;
+    for (uint i = 0u; i < 6u; ++i) {
+        if (i == 3u) {
+            p = corner.p2;
+            q = corner.p1;
+            word += 2u * step;
+        }
+        tspace_Double origin = tspace_widened(o.x);
+        tspace_Double first =
+            tspace_product(tspace_coefficient(is_double, word), tspace_difference(tspace_widened(p.x), origin));
+        tspace_Double second =
+            tspace_product(tspace_coefficient(is_double, word + step), tspace_difference(tspace_widened(q.x), origin));
+        tspace_Double value = tspace_product(factor, tspace_difference(first, second));
+        made.a = vec3(made.a.y, made.a.z, made.b.x);
+        made.b = vec3(made.b.y, made.b.z, tspace_narrowed(value, 0));
+        o = tspace_turned(o);
+        p = tspace_turned(p);
+        q = tspace_turned(q);
+    }
+    return made;
+}
+
+// ---- tangents
+
+// Returns a * x - b * y for the coefficients a and b at a word of the plan, with the same bits on every device.
+vec3 tspace_combined(uint word, vec3 x, vec3 y) {
+    vec3 first = tspace_kept(uintBitsToFloat(tspace_plan[word]) * tspace_kept(x));
+    return tspace_kept(first - tspace_kept(uintBitsToFloat(tspace_plan[word + 1u]) * tspace_kept(y)));
+}
+
+// Returns dP/du and dP/dv of the triangle of a corner, with the bits of the library.
+tspace_Sums tspace_derivatives(tspace_Corner corner) {
+    tspace_Sums made;
+    made.a = tspace_combined(corner.uvs, corner.e1, corner.e2);
+    made.b = tspace_combined(corner.uvs + 2u, corner.e2, corner.e1);
+    bool is_wide = tspace_plan[corner.uvs] == tspace_doubles || !tspace_isFinite(made.a) || !tspace_isFinite(made.b);
+    if (is_wide && tspace_isFinite(corner.p0) && tspace_isFinite(corner.p1) && tspace_isFinite(corner.p2)) {
+        return tspace_wideDerivatives(corner);
+    }
+    return made;
+}
+
 // Returns what a corner adds to the sum of mikktspace, uniform, angle and area: its unit tangent perpendicular to the
 // normal, times its weight.
 vec3 tspace_weightedTangent(tspace_Corner corner, vec3 n, uint method) {
-    float a = uintBitsToFloat(tspace_plan[corner.uvs]);
-    float b = uintBitsToFloat(tspace_plan[corner.uvs + 1u]);
-    vec3 along = a * corner.e1 - b * corner.e2;
+    vec3 along = tspace_combined(corner.uvs, corner.e1, corner.e2);
     float size = sqrt(dot(along, along));
     vec3 tangent = vec3(0.0, 0.0, 0.0);
     if (size > tspace_least_normal) {
@@ -391,14 +706,15 @@ tspace_Sums tspace_twoWeights(tspace_Corner corner, float scale) {
     sums.b = vec3(0.0, 0.0, 0.0);
     vec3 e1 = scale * corner.e1;
     vec3 e2 = scale * corner.e2;
-    vec3 e3 = e2 - e1;
-    float squares = dot(e1, e1) + dot(e2, e2) + dot(e3, e3);
+    vec3 e3 = scale * (corner.p2 - corner.p1);
+    float squares = dot(e1, e1) + dot(e3, e3) + dot(e2, e2);
     if (!(squares < tspace_greatest)) {
         return sums;
     }
-    vec3 along = uintBitsToFloat(tspace_plan[corner.uvs]) * e1 - uintBitsToFloat(tspace_plan[corner.uvs + 1u]) * e2;
+    vec3 along = tspace_combined(corner.uvs, e1, e2);
     float size = sqrt(dot(along, along));
     vec3 c = cross(e1, e2);
+    float area = sqrt(dot(c, c));
     float root = sqrt(squares);
     vec3 next = scale * corner.next;
     vec3 previous = scale * corner.previous;
@@ -406,7 +722,7 @@ tspace_Sums tspace_twoWeights(tspace_Corner corner, float scale) {
     if (w < tspace_greatest) {
         sums.a = w * along;
     }
-    float robust = dot(c, c) / (root * sqrt(root));
+    float robust = (area * area) / (root * sqrt(root));
     if (size > 0.0 && robust < tspace_greatest) {
         sums.b = (robust / size) * along;
     }
@@ -436,8 +752,8 @@ vec3 tspace_across(vec3 n, vec3 v) { return tspace_direction(v - dot(n, v) * n);
 
 vec3 tspace_mixed(vec3 normal, tspace_Sums sums) {
     vec3 n = tspace_unitNormal(normal);
-    vec3 accurate = tspace_across(n, tspace_direction(sums.a));
-    vec3 robust = tspace_across(n, tspace_direction(sums.b));
+    vec3 accurate = tspace_across(n, tspace_inverseSize(tspace_largest(sums.a)) * sums.a);
+    vec3 robust = tspace_across(n, tspace_inverseSize(tspace_largest(sums.b)) * sums.b);
     vec3 across = cross(accurate, robust);
     float square = dot(across, across);
     if (dot(accurate, robust) < 0.0) {
@@ -454,19 +770,28 @@ vec3 tspace_mixed(vec3 normal, tspace_Sums sums) {
 // Returns the tangent of lengyel from the sums of dP/du and dP/dv, by Gram-Schmidt. w: the sign.
 vec4 tspace_fromDerivatives(vec3 n, tspace_Sums sums) {
     float largest = tspace_largest(sums.a);
-    if (!(largest > 0.0) || !(largest < tspace_greatest)) {
+    if (!(largest > 0.0) || !(largest < tspace_greatest) || !tspace_isFinite(n)) {
         return vec4(1.0, 0.0, 0.0, 1.0);
     }
     vec3 s = sums.a / largest;
-    vec3 rest = s - dot(n, s) * n;
+    vec3 b = sums.b / max(tspace_largest(sums.b), tspace_least_normal);
+    float along = dot(n, s);
+    vec3 rest = s - along * n;
+    float volume = dot(cross(n, rest), b);
+    bool is_mirrored = volume < 0.0;
+    // Far from these limits, rounding does not decide.
     float size = tspace_largest(rest);
+    if (!(size > 0.0625 * abs(along)) || !(abs(volume) > 0.001 * size)) {
+        rest = tspace_wideRest(n, sums.a);
+        is_mirrored = tspace_isMirrored(n, sums.a, sums.b);
+        size = tspace_largest(rest);
+    }
     if (!(size > 0.0)) {
         return vec4(1.0, 0.0, 0.0, 1.0);
     }
     vec3 t = tspace_direction(rest / size);
     float sign = 1.0;
-    vec3 b = sums.b / max(tspace_largest(sums.b), tspace_least_normal);
-    if (dot(cross(n, t), b) < 0.0) {
+    if (is_mirrored) {
         sign = -1.0;
     }
     return vec4(t.x, t.y, t.z, sign);
@@ -487,7 +812,7 @@ vec3 tspace_finish(vec3 normal, tspace_Sums sums, uint method, uint flags) {
     return tangent;
 }
 
-vec4 tspace_tangentOfResult(uint begin, uint end, uint flags, uint own, vec3 made_normal, float scale) {
+vec4 tspace_tangentOfResult(uint begin, uint end, uint flags, vec3 made_normal, float scale) {
     uint method = tspace_plan[1];
     bool makes_normals = (tspace_plan[2] & 1u) != 0u;
     float sign = 1.0;
@@ -495,9 +820,6 @@ vec4 tspace_tangentOfResult(uint begin, uint end, uint flags, uint own, vec3 mad
         sign = -1.0;
     }
     vec3 normal = made_normal;
-    if (!makes_normals && own != tspace_next_part) {
-        normal = tspace_normalOf(tspace_vertexOf(own));
-    }
     tspace_Sums sums;
     sums.a = vec3(0.0, 0.0, 0.0);
     sums.b = vec3(0.0, 0.0, 0.0);
@@ -517,16 +839,14 @@ vec4 tspace_tangentOfResult(uint begin, uint end, uint flags, uint own, vec3 mad
         }
         if ((entry & tspace_no_tangent) == 0u) {
             tspace_Corner corner = tspace_cornerOf(entry);
+            if (!makes_normals) {
+                normal = tspace_normalOf(corner.vertex_number);
+            }
             if (method == 1u) {
-                vec3 e1 = scale * corner.e1;
-                vec3 e2 = scale * corner.e2;
-                vec3 s =
-                    uintBitsToFloat(tspace_plan[corner.uvs]) * e1 - uintBitsToFloat(tspace_plan[corner.uvs + 1u]) * e2;
-                vec3 t = uintBitsToFloat(tspace_plan[corner.uvs + 2u]) * e2 -
-                         uintBitsToFloat(tspace_plan[corner.uvs + 3u]) * e1;
-                if (tspace_isFinite(s) && tspace_isFinite(t)) {
-                    sums.a += s;
-                    sums.b += t;
+                tspace_Sums more = tspace_derivatives(corner);
+                if (tspace_isFinite(more.a) && tspace_isFinite(more.b)) {
+                    sums.a = tspace_kept(sums.a + more.a);
+                    sums.b = tspace_kept(sums.b + more.b);
                 }
             }
             if (method == 7u) {
@@ -535,10 +855,7 @@ vec4 tspace_tangentOfResult(uint begin, uint end, uint flags, uint own, vec3 mad
                 sums.b += more.b;
             }
             if (method != 1u && method != 7u) {
-                vec3 n = made_normal;
-                if (!makes_normals) {
-                    n = tspace_normalOf(corner.vertex_number);
-                }
+                vec3 n = normal;
                 if ((flags & 0x10000000u) != 0u) {
                     n = tspace_normalAt(entry, corner.vertex_number);
                 }
@@ -835,7 +1152,7 @@ void tspace_evaluateResult(uint result) {
     uint own = tspace_plan[row + 2u];
     uint end = begin + (flags & 0x0fffffffu);
     float scale = 1.0;
-    if ((tspace_plan[2] & 1u) != 0u || tspace_plan[1] == 1u || tspace_plan[1] == 7u) {
+    if ((tspace_plan[2] & 1u) != 0u || tspace_plan[1] == 7u) {
         scale = tspace_scaleOf(begin, end);
     }
     vec3 normal = vec3(0.0, 0.0, 1.0);
@@ -854,7 +1171,7 @@ void tspace_evaluateResult(uint result) {
     }
     vec4 tangent = vec4(0.0, 0.0, 0.0, 0.0);
     if ((flags & 0x20000000u) == 0u) {
-        tangent = tspace_tangentOfResult(begin, end, flags, own, normal, scale);
+        tangent = tspace_tangentOfResult(begin, end, flags, normal, scale);
     }
     if (tspace_setting(tspace_tangent_format) != 0u && (tspace_plan[2] & 1u) == 0u && own != tspace_next_part) {
         normal = tspace_normalOf(tspace_vertexOf(own));

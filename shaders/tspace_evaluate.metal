@@ -34,6 +34,7 @@ constant uint tspace_first_result = 20u;   // first result of this dispatch
 constant uint tspace_no_tangent = 0x80000000u;
 constant uint tspace_no_normal = 0x40000000u;
 constant uint tspace_next_part = 0xffffffffu;
+constant uint tspace_doubles = 0xffffffffu;
 constant float tspace_least_normal = 1.17549435e-38f;
 constant float tspace_greatest = 3.4e38f;
 
@@ -119,6 +120,15 @@ struct tspace_Evaluator {
 
     // ---- inputs of a pose
 
+    // Returns v. Compilers cannot know that v is unchanged, because they do not know the version in the first word of a plan,
+    // so they cannot fuse or reorder the operations before and after. The operations between such calls are additions,
+    // subtractions and multiplications, which round equally on all devices.
+    float3 tspace_kept(float3 v) {
+        uint zero = tspace_plan[0] ^ 1u;
+        return float3(as_type<float>(as_type<uint>(v.x) ^ zero), as_type<float>(as_type<uint>(v.y) ^ zero),
+                      as_type<float>(as_type<uint>(v.z) ^ zero));
+    }
+
     float tspace_shortAt(uint byte) {
         uint word = tspace_positions[byte >> 2u];
         if ((byte & 2u) == 0u) {
@@ -139,9 +149,9 @@ struct tspace_Evaluator {
                       as_type<float>(tspace_positions[word + 2u]));
     }
 
-    float3 tspace_deformVector(uint word) {
-        return float3(as_type<float>(tspace_deform[word]), as_type<float>(tspace_deform[word + 1u]),
-                      as_type<float>(tspace_deform[word + 2u]));
+    float3 tspace_deformVector(uint word, uint step) {
+        return float3(as_type<float>(tspace_deform[word]), as_type<float>(tspace_deform[word + step]),
+                      as_type<float>(tspace_deform[word + 2u * step]));
     }
 
     float3 tspace_morphed(float3 position, uint vertex_number) {
@@ -151,7 +161,8 @@ struct tspace_Evaluator {
             float weight = as_type<float>(tspace_deform[tspace_setting(tspace_morph_weights) + shape]);
             uint row = 3u * (shape * tspace_setting(tspace_vertex_count) + vertex_number);
             if (weight != 0.0f) {
-                sum += weight * tspace_deformVector(tspace_setting(tspace_morph_deltas) + row);
+                sum = tspace_kept(
+                    sum + tspace_kept(weight * tspace_deformVector(tspace_setting(tspace_morph_deltas) + row, 1u)));
             }
         }
         return sum;
@@ -164,11 +175,11 @@ struct tspace_Evaluator {
             uint joint = tspace_deform[tspace_setting(tspace_skin_joints) + 4u * vertex_number + i];
             uint row = tspace_setting(tspace_skin_matrices) + 12u * joint;
             if (weight != 0.0f) {
-                float3 moved = float3(
-                    metal::dot(tspace_deformVector(row), position) + as_type<float>(tspace_deform[row + 3u]),
-                    metal::dot(tspace_deformVector(row + 4u), position) + as_type<float>(tspace_deform[row + 7u]),
-                    metal::dot(tspace_deformVector(row + 8u), position) + as_type<float>(tspace_deform[row + 11u]));
-                sum += weight * moved;
+                float3 moved = tspace_kept(position.x * tspace_deformVector(row, 4u));
+                moved = tspace_kept(moved + tspace_kept(position.y * tspace_deformVector(row + 1u, 4u)));
+                moved = tspace_kept(moved + tspace_kept(position.z * tspace_deformVector(row + 2u, 4u)));
+                moved = tspace_kept(moved + tspace_deformVector(row + 3u, 4u));
+                sum = tspace_kept(sum + tspace_kept(weight * moved));
             }
         }
         return sum;
@@ -209,6 +220,9 @@ struct tspace_Evaluator {
         float3 e2;        // second edge: from corner 0 to corner 2
         float3 next;      // from this corner to the next one
         float3 previous;  // from this corner to the previous one
+        float3 p0;        // positions of the triangle
+        float3 p1;
+        float3 p2;
         uint vertex_number;
         uint uvs;  // offset of the UV coefficients in tspace_plan
     };
@@ -229,6 +243,9 @@ struct tspace_Evaluator {
             p2 = tspace_positionOf(tspace_plan[at + i]);
         }
         tspace_Corner corner;
+        corner.p0 = p0;
+        corner.p1 = p1;
+        corner.p2 = p2;
         corner.e1 = p1 - p0;
         corner.e2 = p2 - p0;
         corner.next = corner.e1;
@@ -248,6 +265,12 @@ struct tspace_Evaluator {
 
     float tspace_largest(float3 v) { return metal::max(metal::abs(v.x), metal::max(metal::abs(v.y), metal::abs(v.z))); }
 
+    // Returns an even power of two near 1 / size. Its square root is a power of two too.
+    float tspace_inverseSize(float size) {
+        uint exponent = metal::clamp(as_type<uint>(size) >> 23u, 1u, 253u);
+        return as_type<float>(((254u - exponent) | 1u) << 23u);
+    }
+
     // Returns a power of two that scales the edges of a result to about 1, so that products stay in range; 0 without edges.
     float tspace_scaleOf(uint begin, uint end) {
         float largest = 0.0f;
@@ -264,8 +287,7 @@ struct tspace_Evaluator {
         if (largest == 0.0f) {
             return 0.0f;
         }
-        uint exponent = metal::clamp(as_type<uint>(largest) >> 23u, 1u, 253u);
-        return as_type<float>((254u - exponent) << 23u);
+        return tspace_inverseSize(largest);
     }
 
     // ---- normals
@@ -357,7 +379,235 @@ struct tspace_Evaluator {
         return float3(made.x, made.y, made.z);
     }
 
-    // ---- tangents
+    // ---- double precision, in integers: lengyel, where the library computes in double precision, with the same bits
+
+    // The number (high, low) * 2^exponent, negated if sign is 1. The first bit of `high` is 1, unless the number is 0.
+    struct tspace_Double {
+        uint sign;
+        int exponent;
+        uint high;
+        uint low;
+    };
+
+    // Returns the number (high, low) * 2^exponent rounded to 53 bits, to the nearest, or to the even one of two.
+    tspace_Double tspace_rounded(uint sign, int exponent, uint high, uint low) {
+        tspace_Double made;
+        made.sign = sign;
+        made.exponent = exponent;
+        made.high = high;
+        made.low = low;
+        if ((high | low) == 0u) {
+            return made;
+        }
+        while (made.high < 0x80000000u) {
+            made.high = (made.high << 1u) | (made.low >> 31u);
+            made.low = made.low << 1u;
+            made.exponent -= 1;
+        }
+        uint rest = made.low & 2047u;
+        made.low -= rest;
+        if (rest > 1024u || (rest == 1024u && (made.low & 2048u) != 0u)) {
+            made.low += 2048u;
+            if (made.low == 0u) {
+                made.high += 1u;
+            }
+            if (made.high == 0u) {
+                made.high = 0x80000000u;
+                made.exponent += 1;
+            }
+        }
+        return made;
+    }
+
+    // Returns a float as a double.
+    tspace_Double tspace_widened(float x) {
+        tspace_Double made;
+        made.sign = as_type<uint>(x) >> 31u;
+        made.exponent = int((as_type<uint>(x) >> 23u) & 255u) - 190;
+        made.high = (as_type<uint>(x) << 8u) | 0x80000000u;
+        made.low = 0u;
+        if (made.exponent == -190) {
+            made.exponent = -189;
+            made.high = (as_type<uint>(x) << 9u) >> 1u;
+            while (made.high != 0u && made.high < 0x80000000u) {
+                made.high = made.high << 1u;
+                made.exponent -= 1;
+            }
+        }
+        return made;
+    }
+
+    // Returns a double of the plan: a word with its high bits, and one with its low bits.
+    tspace_Double tspace_storedDouble(uint word) {
+        uint bits = tspace_plan[word];
+        tspace_Double made;
+        made.sign = bits >> 31u;
+        made.exponent = int((bits >> 20u) & 2047u) - 1086;
+        made.high = 0u;
+        made.low = tspace_plan[word + 1u] << 11u;
+        if (made.exponent != -1086) {
+            made.high = 0x80000000u | (bits << 11u) | (tspace_plan[word + 1u] >> 21u);
+        }
+        return made;
+    }
+
+    // Returns the nearest float to d * 2^shift.
+    float tspace_narrowed(tspace_Double d, int shift) {
+        int field = metal::clamp(d.exponent + shift + 190, -31, 255);
+        uint count = 8u;
+        if (field < 1) {
+            count = uint(9 - field);
+            field = 1;
+        }
+        uint bits = d.high;
+        uint last = 0u;
+        uint lost = d.low;
+        for (uint i = 0u; i < count; ++i) {
+            lost = lost | last;
+            last = bits & 1u;
+            bits = bits >> 1u;
+        }
+        if (last != 0u && (lost | (bits & 1u)) != 0u) {
+            bits += 1u;
+        }
+        if (d.high != 0u) {
+            bits += uint(field - 1) << 23u;
+        }
+        return as_type<float>(metal::min(bits, 0x7f800000u) | (d.sign << 31u));
+    }
+
+    // Returns a * b.
+    tspace_Double tspace_product(tspace_Double a, tspace_Double b) {
+        uint a_high = a.high >> 1u;
+        uint a_low = (a.high << 31u) | (a.low >> 1u);
+        uint bits = b.low >> 11u;
+        uint high = 0u;
+        uint low = 0u;
+        uint lost = 0u;
+        for (uint i = 0u; i < 53u; ++i) {
+            if (i == 21u) {
+                bits = b.high;
+            }
+            if ((bits & 1u) != 0u) {
+                high += a_high;
+                low += a_low;
+                if (low < a_low) {
+                    high += 1u;
+                }
+            }
+            bits = bits >> 1u;
+            lost = lost | (low & 1u);
+            low = (low >> 1u) | (high << 31u);
+            high = high >> 1u;
+        }
+        return tspace_rounded(a.sign ^ b.sign, a.exponent + b.exponent + 65, high, low | lost);
+    }
+
+    tspace_Double tspace_negated(tspace_Double a) {
+        tspace_Double made = a;
+        made.sign = 1u - a.sign;
+        return made;
+    }
+
+    // Returns whether |a| < |b|.
+    bool tspace_isSmaller(tspace_Double a, tspace_Double b) {
+        if (a.exponent != b.exponent) {
+            return a.exponent < b.exponent;
+        }
+        return a.high < b.high || (a.high == b.high && a.low < b.low);
+    }
+
+    // Returns a + b.
+    tspace_Double tspace_total(tspace_Double a, tspace_Double b) {
+        if (b.high == 0u) {
+            return a;
+        }
+        if (a.high == 0u) {
+            return b;
+        }
+        tspace_Double large = a;
+        tspace_Double small = b;
+        if (tspace_isSmaller(a, b)) {
+            large = b;
+            small = a;
+        }
+        uint lost = 0u;
+        uint count = metal::min(uint(large.exponent - small.exponent), 64u);
+        for (uint i = 0u; i <= count; ++i) {
+            lost = lost | (small.low & 1u);
+            small.low = (small.low >> 1u) | (small.high << 31u);
+            small.high = small.high >> 1u;
+        }
+        small.low = small.low | lost;
+        uint low = (large.high << 31u) | (large.low >> 1u);
+        uint high = large.high >> 1u;
+        if (large.sign == small.sign) {
+            high += small.high;
+            low += small.low;
+            if (low < small.low) {
+                high += 1u;
+            }
+        }
+        if (large.sign != small.sign) {
+            high -= small.high;
+            if (low < small.low) {
+                high -= 1u;
+            }
+            low -= small.low;
+        }
+        return tspace_rounded(large.sign, large.exponent + 1, high, low);
+    }
+
+    tspace_Double tspace_difference(tspace_Double a, tspace_Double b) { return tspace_total(a, tspace_negated(b)); }
+
+    // Returns the next axis as x. Loops that rotate vectors, here and below, call each function once, because compilers
+    // inline all calls.
+    float3 tspace_turned(float3 v) { return float3(v.y, v.z, v.x); }
+
+    // Returns whether the determinant of three vectors is negative.
+    bool tspace_isMirrored(float3 normal, float3 along_u, float3 along_v) {
+        float3 n = normal;
+        float3 s = along_u;
+        float3 t = along_v;
+        tspace_Double volume = tspace_widened(0.0f);
+        for (uint i = 0u; i < 3u; ++i) {
+            tspace_Double first = tspace_product(tspace_widened(n.y), tspace_widened(s.z));
+            tspace_Double second = tspace_product(tspace_widened(n.z), tspace_widened(s.y));
+            volume = tspace_total(volume, tspace_product(tspace_difference(first, second), tspace_widened(t.x)));
+            n = tspace_turned(n);
+            s = tspace_turned(s);
+            t = tspace_turned(t);
+        }
+        return volume.sign == 1u && volume.high != 0u;
+    }
+
+    // Returns s without its component along the unit vector n, times a power of two.
+    float3 tspace_wideRest(float3 normal, float3 along_u) {
+        float3 n = normal;
+        float3 s = along_u;
+        tspace_Double along = tspace_widened(0.0f);
+        for (uint i = 0u; i < 3u; ++i) {
+            along = tspace_total(along, tspace_product(tspace_widened(n.x), tspace_widened(s.x)));
+            n = tspace_turned(n);
+            s = tspace_turned(s);
+        }
+        tspace_Double x = along;
+        tspace_Double y = along;
+        tspace_Double z = along;
+        int largest = -2000;
+        for (uint k = 0u; k < 3u; ++k) {
+            x = y;
+            y = z;
+            z = tspace_difference(tspace_widened(s.x), tspace_product(along, tspace_widened(n.x)));
+            if (z.high != 0u) {
+                largest = metal::max(largest, z.exponent);
+            }
+            n = tspace_turned(n);
+            s = tspace_turned(s);
+        }
+        int shift = -64 - largest;
+        return float3(tspace_narrowed(x, shift), tspace_narrowed(y, shift), tspace_narrowed(z, shift));
+    }
 
     // Sums over the corners of a result. `a`: tangents. `b`: a second sum, for fast and lengyel.
     struct tspace_Sums {
@@ -365,12 +615,77 @@ struct tspace_Evaluator {
         float3 b;
     };
 
+    // Returns a UV coefficient of the plan.
+    tspace_Double tspace_coefficient(bool is_double, uint word) {
+        if (is_double) {
+            return tspace_storedDouble(word);
+        }
+        return tspace_widened(as_type<float>(tspace_plan[word]));
+    }
+
+    // Returns dP/du and dP/dv of the triangle of a corner, rounded to floats.
+    tspace_Sums tspace_wideDerivatives(tspace_Corner corner) {
+        bool is_double = tspace_plan[corner.uvs] == tspace_doubles;
+        uint word = corner.uvs;
+        uint step = 1u;
+        tspace_Double factor = tspace_widened(1.0f);
+        if (is_double) {
+            word = tspace_plan[corner.uvs + 1u] + 2u;
+            step = 2u;
+            factor = tspace_storedDouble(word - 2u);
+        }
+        float3 o = corner.p0;
+        float3 p = corner.p1;
+        float3 q = corner.p2;
+        tspace_Sums made;
+        made.a = o;
+        made.b = o;
+        for (uint i = 0u; i < 6u; ++i) {
+            if (i == 3u) {
+                p = corner.p2;
+                q = corner.p1;
+                word += 2u * step;
+            }
+            tspace_Double origin = tspace_widened(o.x);
+            tspace_Double first =
+                tspace_product(tspace_coefficient(is_double, word), tspace_difference(tspace_widened(p.x), origin));
+            tspace_Double second = tspace_product(tspace_coefficient(is_double, word + step),
+                                                  tspace_difference(tspace_widened(q.x), origin));
+            tspace_Double value = tspace_product(factor, tspace_difference(first, second));
+            made.a = float3(made.a.y, made.a.z, made.b.x);
+            made.b = float3(made.b.y, made.b.z, tspace_narrowed(value, 0));
+            o = tspace_turned(o);
+            p = tspace_turned(p);
+            q = tspace_turned(q);
+        }
+        return made;
+    }
+
+    // ---- tangents
+
+    // Returns a * x - b * y for the coefficients a and b at a word of the plan, with the same bits on every device.
+    float3 tspace_combined(uint word, float3 x, float3 y) {
+        float3 first = tspace_kept(as_type<float>(tspace_plan[word]) * tspace_kept(x));
+        return tspace_kept(first - tspace_kept(as_type<float>(tspace_plan[word + 1u]) * tspace_kept(y)));
+    }
+
+    // Returns dP/du and dP/dv of the triangle of a corner, with the bits of the library.
+    tspace_Sums tspace_derivatives(tspace_Corner corner) {
+        tspace_Sums made;
+        made.a = tspace_combined(corner.uvs, corner.e1, corner.e2);
+        made.b = tspace_combined(corner.uvs + 2u, corner.e2, corner.e1);
+        bool is_wide =
+            tspace_plan[corner.uvs] == tspace_doubles || !tspace_isFinite(made.a) || !tspace_isFinite(made.b);
+        if (is_wide && tspace_isFinite(corner.p0) && tspace_isFinite(corner.p1) && tspace_isFinite(corner.p2)) {
+            return tspace_wideDerivatives(corner);
+        }
+        return made;
+    }
+
     // Returns what a corner adds to the sum of mikktspace, uniform, angle and area: its unit tangent perpendicular to the
     // normal, times its weight.
     float3 tspace_weightedTangent(tspace_Corner corner, float3 n, uint method) {
-        float a = as_type<float>(tspace_plan[corner.uvs]);
-        float b = as_type<float>(tspace_plan[corner.uvs + 1u]);
-        float3 along = a * corner.e1 - b * corner.e2;
+        float3 along = tspace_combined(corner.uvs, corner.e1, corner.e2);
         float size = metal::sqrt(metal::dot(along, along));
         float3 tangent = float3(0.0f, 0.0f, 0.0f);
         if (size > tspace_least_normal) {
@@ -397,14 +712,15 @@ struct tspace_Evaluator {
         sums.b = float3(0.0f, 0.0f, 0.0f);
         float3 e1 = scale * corner.e1;
         float3 e2 = scale * corner.e2;
-        float3 e3 = e2 - e1;
-        float squares = metal::dot(e1, e1) + metal::dot(e2, e2) + metal::dot(e3, e3);
+        float3 e3 = scale * (corner.p2 - corner.p1);
+        float squares = metal::dot(e1, e1) + metal::dot(e3, e3) + metal::dot(e2, e2);
         if (!(squares < tspace_greatest)) {
             return sums;
         }
-        float3 along = as_type<float>(tspace_plan[corner.uvs]) * e1 - as_type<float>(tspace_plan[corner.uvs + 1u]) * e2;
+        float3 along = tspace_combined(corner.uvs, e1, e2);
         float size = metal::sqrt(metal::dot(along, along));
         float3 c = metal::cross(e1, e2);
+        float area = metal::sqrt(metal::dot(c, c));
         float root = metal::sqrt(squares);
         float3 next = scale * corner.next;
         float3 previous = scale * corner.previous;
@@ -412,7 +728,7 @@ struct tspace_Evaluator {
         if (w < tspace_greatest) {
             sums.a = w * along;
         }
-        float robust = metal::dot(c, c) / (root * metal::sqrt(root));
+        float robust = (area * area) / (root * metal::sqrt(root));
         if (size > 0.0f && robust < tspace_greatest) {
             sums.b = (robust / size) * along;
         }
@@ -442,8 +758,8 @@ struct tspace_Evaluator {
 
     float3 tspace_mixed(float3 normal, tspace_Sums sums) {
         float3 n = tspace_unitNormal(normal);
-        float3 accurate = tspace_across(n, tspace_direction(sums.a));
-        float3 robust = tspace_across(n, tspace_direction(sums.b));
+        float3 accurate = tspace_across(n, tspace_inverseSize(tspace_largest(sums.a)) * sums.a);
+        float3 robust = tspace_across(n, tspace_inverseSize(tspace_largest(sums.b)) * sums.b);
         float3 across = metal::cross(accurate, robust);
         float square = metal::dot(across, across);
         if (metal::dot(accurate, robust) < 0.0f) {
@@ -460,19 +776,28 @@ struct tspace_Evaluator {
     // Returns the tangent of lengyel from the sums of dP/du and dP/dv, by Gram-Schmidt. w: the sign.
     float4 tspace_fromDerivatives(float3 n, tspace_Sums sums) {
         float largest = tspace_largest(sums.a);
-        if (!(largest > 0.0f) || !(largest < tspace_greatest)) {
+        if (!(largest > 0.0f) || !(largest < tspace_greatest) || !tspace_isFinite(n)) {
             return float4(1.0f, 0.0f, 0.0f, 1.0f);
         }
         float3 s = sums.a / largest;
-        float3 rest = s - metal::dot(n, s) * n;
+        float3 b = sums.b / metal::max(tspace_largest(sums.b), tspace_least_normal);
+        float along = metal::dot(n, s);
+        float3 rest = s - along * n;
+        float volume = metal::dot(metal::cross(n, rest), b);
+        bool is_mirrored = volume < 0.0f;
+        // Far from these limits, rounding does not decide.
         float size = tspace_largest(rest);
+        if (!(size > 0.0625f * metal::abs(along)) || !(metal::abs(volume) > 0.001f * size)) {
+            rest = tspace_wideRest(n, sums.a);
+            is_mirrored = tspace_isMirrored(n, sums.a, sums.b);
+            size = tspace_largest(rest);
+        }
         if (!(size > 0.0f)) {
             return float4(1.0f, 0.0f, 0.0f, 1.0f);
         }
         float3 t = tspace_direction(rest / size);
         float sign = 1.0f;
-        float3 b = sums.b / metal::max(tspace_largest(sums.b), tspace_least_normal);
-        if (metal::dot(metal::cross(n, t), b) < 0.0f) {
+        if (is_mirrored) {
             sign = -1.0f;
         }
         return float4(t.x, t.y, t.z, sign);
@@ -493,7 +818,7 @@ struct tspace_Evaluator {
         return tangent;
     }
 
-    float4 tspace_tangentOfResult(uint begin, uint end, uint flags, uint own, float3 made_normal, float scale) {
+    float4 tspace_tangentOfResult(uint begin, uint end, uint flags, float3 made_normal, float scale) {
         uint method = tspace_plan[1];
         bool makes_normals = (tspace_plan[2] & 1u) != 0u;
         float sign = 1.0f;
@@ -501,9 +826,6 @@ struct tspace_Evaluator {
             sign = -1.0f;
         }
         float3 normal = made_normal;
-        if (!makes_normals && own != tspace_next_part) {
-            normal = tspace_normalOf(tspace_vertexOf(own));
-        }
         tspace_Sums sums;
         sums.a = float3(0.0f, 0.0f, 0.0f);
         sums.b = float3(0.0f, 0.0f, 0.0f);
@@ -523,16 +845,14 @@ struct tspace_Evaluator {
             }
             if ((entry & tspace_no_tangent) == 0u) {
                 tspace_Corner corner = tspace_cornerOf(entry);
+                if (!makes_normals) {
+                    normal = tspace_normalOf(corner.vertex_number);
+                }
                 if (method == 1u) {
-                    float3 e1 = scale * corner.e1;
-                    float3 e2 = scale * corner.e2;
-                    float3 s = as_type<float>(tspace_plan[corner.uvs]) * e1 -
-                               as_type<float>(tspace_plan[corner.uvs + 1u]) * e2;
-                    float3 t = as_type<float>(tspace_plan[corner.uvs + 2u]) * e2 -
-                               as_type<float>(tspace_plan[corner.uvs + 3u]) * e1;
-                    if (tspace_isFinite(s) && tspace_isFinite(t)) {
-                        sums.a += s;
-                        sums.b += t;
+                    tspace_Sums more = tspace_derivatives(corner);
+                    if (tspace_isFinite(more.a) && tspace_isFinite(more.b)) {
+                        sums.a = tspace_kept(sums.a + more.a);
+                        sums.b = tspace_kept(sums.b + more.b);
                     }
                 }
                 if (method == 7u) {
@@ -541,10 +861,7 @@ struct tspace_Evaluator {
                     sums.b += more.b;
                 }
                 if (method != 1u && method != 7u) {
-                    float3 n = made_normal;
-                    if (!makes_normals) {
-                        n = tspace_normalOf(corner.vertex_number);
-                    }
+                    float3 n = normal;
                     if ((flags & 0x10000000u) != 0u) {
                         n = tspace_normalAt(entry, corner.vertex_number);
                     }
@@ -842,7 +1159,7 @@ struct tspace_Evaluator {
         uint own = tspace_plan[row + 2u];
         uint end = begin + (flags & 0x0fffffffu);
         float scale = 1.0f;
-        if ((tspace_plan[2] & 1u) != 0u || tspace_plan[1] == 1u || tspace_plan[1] == 7u) {
+        if ((tspace_plan[2] & 1u) != 0u || tspace_plan[1] == 7u) {
             scale = tspace_scaleOf(begin, end);
         }
         float3 normal = float3(0.0f, 0.0f, 1.0f);
@@ -861,7 +1178,7 @@ struct tspace_Evaluator {
         }
         float4 tangent = float4(0.0f, 0.0f, 0.0f, 0.0f);
         if ((flags & 0x20000000u) == 0u) {
-            tangent = tspace_tangentOfResult(begin, end, flags, own, normal, scale);
+            tangent = tspace_tangentOfResult(begin, end, flags, normal, scale);
         }
         if (tspace_setting(tspace_tangent_format) != 0u && (tspace_plan[2] & 1u) == 0u && own != tspace_next_part) {
             normal = tspace_normalOf(tspace_vertexOf(own));

@@ -42,6 +42,7 @@ const tspace_first_result: u32 = 20u;     // first result of this dispatch
 const tspace_no_tangent: u32 = 0x80000000u;
 const tspace_no_normal: u32 = 0x40000000u;
 const tspace_next_part: u32 = 0xffffffffu;
+const tspace_doubles: u32 = 0xffffffffu;
 const tspace_least_normal: f32 = 1.17549435e-38;
 const tspace_greatest: f32 = 3.4e38;
 
@@ -113,6 +114,14 @@ fn tspace_angle(x: f32, y: f32) -> f32 {
 
 // ---- inputs of a pose
 
+// Returns v. Compilers cannot know that v is unchanged, because they do not know the version in the first word of a plan,
+// so they cannot fuse or reorder the operations before and after. The operations between such calls are additions,
+// subtractions and multiplications, which round equally on all devices.
+fn tspace_kept(v: vec3f) -> vec3f {
+    var zero: u32 = tspace_plan[0] ^ 1u;
+    return vec3f(bitcast<f32>(bitcast<u32>(v.x) ^ zero), bitcast<f32>(bitcast<u32>(v.y) ^ zero), bitcast<f32>(bitcast<u32>(v.z) ^ zero));
+}
+
 fn tspace_shortAt(byte: u32) -> f32 {
     var word: u32 = tspace_positions[byte >> 2u];
     if ((byte & 2u) == 0u) {
@@ -133,8 +142,9 @@ fn tspace_storedPosition(vertex_number: u32) -> vec3f {
                   bitcast<f32>(tspace_positions[word + 2u]));
 }
 
-fn tspace_deformVector(word: u32) -> vec3f {
-    return vec3f(bitcast<f32>(tspace_deform[word]), bitcast<f32>(tspace_deform[word + 1u]), bitcast<f32>(tspace_deform[word + 2u]));
+fn tspace_deformVector(word: u32, step: u32) -> vec3f {
+    return vec3f(bitcast<f32>(tspace_deform[word]), bitcast<f32>(tspace_deform[word + step]),
+                  bitcast<f32>(tspace_deform[word + 2u * step]));
 }
 
 fn tspace_morphed(position: vec3f, vertex_number: u32) -> vec3f {
@@ -144,7 +154,7 @@ fn tspace_morphed(position: vec3f, vertex_number: u32) -> vec3f {
         var weight: f32 = bitcast<f32>(tspace_deform[tspace_setting(tspace_morph_weights) + shape]);
         var row: u32 = 3u * (shape * tspace_setting(tspace_vertex_count) + vertex_number);
         if (weight != 0.0) {
-            sum += weight * tspace_deformVector(tspace_setting(tspace_morph_deltas) + row);
+            sum = tspace_kept(sum + tspace_kept(weight * tspace_deformVector(tspace_setting(tspace_morph_deltas) + row, 1u)));
         }
     }
     return sum;
@@ -157,10 +167,11 @@ fn tspace_skinned(position: vec3f, vertex_number: u32) -> vec3f {
         var joint: u32 = tspace_deform[tspace_setting(tspace_skin_joints) + 4u * vertex_number + i];
         var row: u32 = tspace_setting(tspace_skin_matrices) + 12u * joint;
         if (weight != 0.0) {
-            var moved: vec3f = vec3f(dot(tspace_deformVector(row), position) + bitcast<f32>(tspace_deform[row + 3u]),
-                                  dot(tspace_deformVector(row + 4u), position) + bitcast<f32>(tspace_deform[row + 7u]),
-                                  dot(tspace_deformVector(row + 8u), position) + bitcast<f32>(tspace_deform[row + 11u]));
-            sum += weight * moved;
+            var moved: vec3f = tspace_kept(position.x * tspace_deformVector(row, 4u));
+            moved = tspace_kept(moved + tspace_kept(position.y * tspace_deformVector(row + 1u, 4u)));
+            moved = tspace_kept(moved + tspace_kept(position.z * tspace_deformVector(row + 2u, 4u)));
+            moved = tspace_kept(moved + tspace_deformVector(row + 3u, 4u));
+            sum = tspace_kept(sum + tspace_kept(weight * moved));
         }
     }
     return sum;
@@ -201,6 +212,9 @@ struct tspace_Corner {
     e2: vec3f,        // second edge: from corner 0 to corner 2
     next: vec3f,      // from this corner to the next one
     previous: vec3f,  // from this corner to the previous one
+    p0: vec3f,        // positions of the triangle
+    p1: vec3f,
+    p2: vec3f,
     vertex_number: u32,
     uvs: u32,  // offset of the UV coefficients in tspace_plan
 }
@@ -221,6 +235,9 @@ fn tspace_cornerOf(entry: u32) -> tspace_Corner {
         p2 = tspace_positionOf(tspace_plan[at + i]);
     }
     var corner: tspace_Corner;
+    corner.p0 = p0;
+    corner.p1 = p1;
+    corner.p2 = p2;
     corner.e1 = p1 - p0;
     corner.e2 = p2 - p0;
     corner.next = corner.e1;
@@ -240,6 +257,12 @@ fn tspace_cornerOf(entry: u32) -> tspace_Corner {
 
 fn tspace_largest(v: vec3f) -> f32 { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
+// Returns an even power of two near 1 / size. Its square root is a power of two too.
+fn tspace_inverseSize(size: f32) -> f32 {
+    var exponent: u32 = clamp(bitcast<u32>(size) >> 23u, 1u, 253u);
+    return bitcast<f32>(((254u - exponent) | 1u) << 23u);
+}
+
 // Returns a power of two that scales the edges of a result to about 1, so that products stay in range; 0 without edges.
 fn tspace_scaleOf(begin: u32, end: u32) -> f32 {
     var largest: f32 = 0.0;
@@ -256,8 +279,7 @@ fn tspace_scaleOf(begin: u32, end: u32) -> f32 {
     if (largest == 0.0) {
         return 0.0;
     }
-    var exponent: u32 = clamp(bitcast<u32>(largest) >> 23u, 1u, 253u);
-    return bitcast<f32>((254u - exponent) << 23u);
+    return tspace_inverseSize(largest);
 }
 
 // ---- normals
@@ -349,7 +371,235 @@ fn tspace_normalAt(entry: u32, vertex_number: u32) -> vec3f {
     return vec3f(made.x, made.y, made.z);
 }
 
-// ---- tangents
+// ---- double precision, in integers: lengyel, where the library computes in double precision, with the same bits
+
+// The number (high, low) * 2^exponent, negated if sign is 1. The first bit of `high` is 1, unless the number is 0.
+struct tspace_Double {
+    sign: u32,
+    exponent: i32,
+    high: u32,
+    low: u32,
+}
+
+// Returns the number (high, low) * 2^exponent rounded to 53 bits, to the nearest, or to the even one of two.
+fn tspace_rounded(sign: u32, exponent: i32, high: u32, low: u32) -> tspace_Double {
+    var made: tspace_Double;
+    made.sign = sign;
+    made.exponent = exponent;
+    made.high = high;
+    made.low = low;
+    if ((high | low) == 0u) {
+        return made;
+    }
+    while (made.high < 0x80000000u) {
+        made.high = (made.high << 1u) | (made.low >> 31u);
+        made.low = made.low << 1u;
+        made.exponent -= 1;
+    }
+    var rest: u32 = made.low & 2047u;
+    made.low -= rest;
+    if (rest > 1024u || (rest == 1024u && (made.low & 2048u) != 0u)) {
+        made.low += 2048u;
+        if (made.low == 0u) {
+            made.high += 1u;
+        }
+        if (made.high == 0u) {
+            made.high = 0x80000000u;
+            made.exponent += 1;
+        }
+    }
+    return made;
+}
+
+// Returns a float as a double.
+fn tspace_widened(x: f32) -> tspace_Double {
+    var made: tspace_Double;
+    made.sign = bitcast<u32>(x) >> 31u;
+    made.exponent = i32((bitcast<u32>(x) >> 23u) & 255u) - 190;
+    made.high = (bitcast<u32>(x) << 8u) | 0x80000000u;
+    made.low = 0u;
+    if (made.exponent == -190) {
+        made.exponent = -189;
+        made.high = (bitcast<u32>(x) << 9u) >> 1u;
+        while (made.high != 0u && made.high < 0x80000000u) {
+            made.high = made.high << 1u;
+            made.exponent -= 1;
+        }
+    }
+    return made;
+}
+
+// Returns a double of the plan: a word with its high bits, and one with its low bits.
+fn tspace_storedDouble(word: u32) -> tspace_Double {
+    var bits: u32 = tspace_plan[word];
+    var made: tspace_Double;
+    made.sign = bits >> 31u;
+    made.exponent = i32((bits >> 20u) & 2047u) - 1086;
+    made.high = 0u;
+    made.low = tspace_plan[word + 1u] << 11u;
+    if (made.exponent != -1086) {
+        made.high = 0x80000000u | (bits << 11u) | (tspace_plan[word + 1u] >> 21u);
+    }
+    return made;
+}
+
+// Returns the nearest float to d * 2^shift.
+fn tspace_narrowed(d: tspace_Double, shift: i32) -> f32 {
+    var field: i32 = clamp(d.exponent + shift + 190, -31, 255);
+    var count: u32 = 8u;
+    if (field < 1) {
+        count = u32(9 - field);
+        field = 1;
+    }
+    var bits: u32 = d.high;
+    var last: u32 = 0u;
+    var lost: u32 = d.low;
+    for (var i: u32 = 0u; i < count; i++) {
+        lost = lost | last;
+        last = bits & 1u;
+        bits = bits >> 1u;
+    }
+    if (last != 0u && (lost | (bits & 1u)) != 0u) {
+        bits += 1u;
+    }
+    if (d.high != 0u) {
+        bits += u32(field - 1) << 23u;
+    }
+    return bitcast<f32>(min(bits, 0x7f800000u) | (d.sign << 31u));
+}
+
+// Returns a * b.
+fn tspace_product(a: tspace_Double, b: tspace_Double) -> tspace_Double {
+    var a_high: u32 = a.high >> 1u;
+    var a_low: u32 = (a.high << 31u) | (a.low >> 1u);
+    var bits: u32 = b.low >> 11u;
+    var high: u32 = 0u;
+    var low: u32 = 0u;
+    var lost: u32 = 0u;
+    for (var i: u32 = 0u; i < 53u; i++) {
+        if (i == 21u) {
+            bits = b.high;
+        }
+        if ((bits & 1u) != 0u) {
+            high += a_high;
+            low += a_low;
+            if (low < a_low) {
+                high += 1u;
+            }
+        }
+        bits = bits >> 1u;
+        lost = lost | (low & 1u);
+        low = (low >> 1u) | (high << 31u);
+        high = high >> 1u;
+    }
+    return tspace_rounded(a.sign ^ b.sign, a.exponent + b.exponent + 65, high, low | lost);
+}
+
+fn tspace_negated(a: tspace_Double) -> tspace_Double {
+    var made: tspace_Double = a;
+    made.sign = 1u - a.sign;
+    return made;
+}
+
+// Returns whether |a| < |b|.
+fn tspace_isSmaller(a: tspace_Double, b: tspace_Double) -> bool {
+    if (a.exponent != b.exponent) {
+        return a.exponent < b.exponent;
+    }
+    return a.high < b.high || (a.high == b.high && a.low < b.low);
+}
+
+// Returns a + b.
+fn tspace_total(a: tspace_Double, b: tspace_Double) -> tspace_Double {
+    if (b.high == 0u) {
+        return a;
+    }
+    if (a.high == 0u) {
+        return b;
+    }
+    var large: tspace_Double = a;
+    var small: tspace_Double = b;
+    if (tspace_isSmaller(a, b)) {
+        large = b;
+        small = a;
+    }
+    var lost: u32 = 0u;
+    var count: u32 = min(u32(large.exponent - small.exponent), 64u);
+    for (var i: u32 = 0u; i <= count; i++) {
+        lost = lost | (small.low & 1u);
+        small.low = (small.low >> 1u) | (small.high << 31u);
+        small.high = small.high >> 1u;
+    }
+    small.low = small.low | lost;
+    var low: u32 = (large.high << 31u) | (large.low >> 1u);
+    var high: u32 = large.high >> 1u;
+    if (large.sign == small.sign) {
+        high += small.high;
+        low += small.low;
+        if (low < small.low) {
+            high += 1u;
+        }
+    }
+    if (large.sign != small.sign) {
+        high -= small.high;
+        if (low < small.low) {
+            high -= 1u;
+        }
+        low -= small.low;
+    }
+    return tspace_rounded(large.sign, large.exponent + 1, high, low);
+}
+
+fn tspace_difference(a: tspace_Double, b: tspace_Double) -> tspace_Double { return tspace_total(a, tspace_negated(b)); }
+
+// Returns the next axis as x. Loops that rotate vectors, here and below, call each function once, because compilers
+// inline all calls.
+fn tspace_turned(v: vec3f) -> vec3f { return vec3f(v.y, v.z, v.x); }
+
+// Returns whether the determinant of three vectors is negative.
+fn tspace_isMirrored(normal: vec3f, along_u: vec3f, along_v: vec3f) -> bool {
+    var n: vec3f = normal;
+    var s: vec3f = along_u;
+    var t: vec3f = along_v;
+    var volume: tspace_Double = tspace_widened(0.0);
+    for (var i: u32 = 0u; i < 3u; i++) {
+        var first: tspace_Double = tspace_product(tspace_widened(n.y), tspace_widened(s.z));
+        var second: tspace_Double = tspace_product(tspace_widened(n.z), tspace_widened(s.y));
+        volume = tspace_total(volume, tspace_product(tspace_difference(first, second), tspace_widened(t.x)));
+        n = tspace_turned(n);
+        s = tspace_turned(s);
+        t = tspace_turned(t);
+    }
+    return volume.sign == 1u && volume.high != 0u;
+}
+
+// Returns s without its component along the unit vector n, times a power of two.
+fn tspace_wideRest(normal: vec3f, along_u: vec3f) -> vec3f {
+    var n: vec3f = normal;
+    var s: vec3f = along_u;
+    var along: tspace_Double = tspace_widened(0.0);
+    for (var i: u32 = 0u; i < 3u; i++) {
+        along = tspace_total(along, tspace_product(tspace_widened(n.x), tspace_widened(s.x)));
+        n = tspace_turned(n);
+        s = tspace_turned(s);
+    }
+    var x: tspace_Double = along;
+    var y: tspace_Double = along;
+    var z: tspace_Double = along;
+    var largest: i32 = -2000;
+    for (var k: u32 = 0u; k < 3u; k++) {
+        x = y;
+        y = z;
+        z = tspace_difference(tspace_widened(s.x), tspace_product(along, tspace_widened(n.x)));
+        if (z.high != 0u) {
+            largest = max(largest, z.exponent);
+        }
+        n = tspace_turned(n);
+        s = tspace_turned(s);
+    }
+    var shift: i32 = -64 - largest;
+    return vec3f(tspace_narrowed(x, shift), tspace_narrowed(y, shift), tspace_narrowed(z, shift));
+}
 
 // Sums over the corners of a result. `a`: tangents. `b`: a second sum, for fast and lengyel.
 struct tspace_Sums {
@@ -357,12 +607,76 @@ struct tspace_Sums {
     b: vec3f,
 }
 
+// Returns a UV coefficient of the plan.
+fn tspace_coefficient(is_double: bool, word: u32) -> tspace_Double {
+    if (is_double) {
+        return tspace_storedDouble(word);
+    }
+    return tspace_widened(bitcast<f32>(tspace_plan[word]));
+}
+
+// Returns dP/du and dP/dv of the triangle of a corner, rounded to floats.
+fn tspace_wideDerivatives(corner: tspace_Corner) -> tspace_Sums {
+    var is_double: bool = tspace_plan[corner.uvs] == tspace_doubles;
+    var word: u32 = corner.uvs;
+    var step: u32 = 1u;
+    var factor: tspace_Double = tspace_widened(1.0);
+    if (is_double) {
+        word = tspace_plan[corner.uvs + 1u] + 2u;
+        step = 2u;
+        factor = tspace_storedDouble(word - 2u);
+    }
+    var o: vec3f = corner.p0;
+    var p: vec3f = corner.p1;
+    var q: vec3f = corner.p2;
+    var made: tspace_Sums;
+    made.a = o;
+    made.b = o;
+    for (var i: u32 = 0u; i < 6u; i++) {
+        if (i == 3u) {
+            p = corner.p2;
+            q = corner.p1;
+            word += 2u * step;
+        }
+        var origin: tspace_Double = tspace_widened(o.x);
+        var first: tspace_Double = tspace_product(tspace_coefficient(is_double, word),
+                                             tspace_difference(tspace_widened(p.x), origin));
+        var second: tspace_Double = tspace_product(tspace_coefficient(is_double, word + step),
+                                              tspace_difference(tspace_widened(q.x), origin));
+        var value: tspace_Double = tspace_product(factor, tspace_difference(first, second));
+        made.a = vec3f(made.a.y, made.a.z, made.b.x);
+        made.b = vec3f(made.b.y, made.b.z, tspace_narrowed(value, 0));
+        o = tspace_turned(o);
+        p = tspace_turned(p);
+        q = tspace_turned(q);
+    }
+    return made;
+}
+
+// ---- tangents
+
+// Returns a * x - b * y for the coefficients a and b at a word of the plan, with the same bits on every device.
+fn tspace_combined(word: u32, x: vec3f, y: vec3f) -> vec3f {
+    var first: vec3f = tspace_kept(bitcast<f32>(tspace_plan[word]) * tspace_kept(x));
+    return tspace_kept(first - tspace_kept(bitcast<f32>(tspace_plan[word + 1u]) * tspace_kept(y)));
+}
+
+// Returns dP/du and dP/dv of the triangle of a corner, with the bits of the library.
+fn tspace_derivatives(corner: tspace_Corner) -> tspace_Sums {
+    var made: tspace_Sums;
+    made.a = tspace_combined(corner.uvs, corner.e1, corner.e2);
+    made.b = tspace_combined(corner.uvs + 2u, corner.e2, corner.e1);
+    var is_wide: bool = tspace_plan[corner.uvs] == tspace_doubles || !tspace_isFinite(made.a) || !tspace_isFinite(made.b);
+    if (is_wide && tspace_isFinite(corner.p0) && tspace_isFinite(corner.p1) && tspace_isFinite(corner.p2)) {
+        return tspace_wideDerivatives(corner);
+    }
+    return made;
+}
+
 // Returns what a corner adds to the sum of mikktspace, uniform, angle and area: its unit tangent perpendicular to the
 // normal, times its weight.
 fn tspace_weightedTangent(corner: tspace_Corner, n: vec3f, method: u32) -> vec3f {
-    var a: f32 = bitcast<f32>(tspace_plan[corner.uvs]);
-    var b: f32 = bitcast<f32>(tspace_plan[corner.uvs + 1u]);
-    var along: vec3f = a * corner.e1 - b * corner.e2;
+    var along: vec3f = tspace_combined(corner.uvs, corner.e1, corner.e2);
     var size: f32 = sqrt(dot(along, along));
     var tangent: vec3f = vec3f(0.0, 0.0, 0.0);
     if (size > tspace_least_normal) {
@@ -389,14 +703,15 @@ fn tspace_twoWeights(corner: tspace_Corner, scale: f32) -> tspace_Sums {
     sums.b = vec3f(0.0, 0.0, 0.0);
     var e1: vec3f = scale * corner.e1;
     var e2: vec3f = scale * corner.e2;
-    var e3: vec3f = e2 - e1;
-    var squares: f32 = dot(e1, e1) + dot(e2, e2) + dot(e3, e3);
+    var e3: vec3f = scale * (corner.p2 - corner.p1);
+    var squares: f32 = dot(e1, e1) + dot(e3, e3) + dot(e2, e2);
     if (!(squares < tspace_greatest)) {
         return sums;
     }
-    var along: vec3f = bitcast<f32>(tspace_plan[corner.uvs]) * e1 - bitcast<f32>(tspace_plan[corner.uvs + 1u]) * e2;
+    var along: vec3f = tspace_combined(corner.uvs, e1, e2);
     var size: f32 = sqrt(dot(along, along));
     var c: vec3f = cross(e1, e2);
+    var area: f32 = sqrt(dot(c, c));
     var root: f32 = sqrt(squares);
     var next: vec3f = scale * corner.next;
     var previous: vec3f = scale * corner.previous;
@@ -404,7 +719,7 @@ fn tspace_twoWeights(corner: tspace_Corner, scale: f32) -> tspace_Sums {
     if (w < tspace_greatest) {
         sums.a = w * along;
     }
-    var robust: f32 = dot(c, c) / (root * sqrt(root));
+    var robust: f32 = (area * area) / (root * sqrt(root));
     if (size > 0.0 && robust < tspace_greatest) {
         sums.b = (robust / size) * along;
     }
@@ -434,8 +749,8 @@ fn tspace_across(n: vec3f, v: vec3f) -> vec3f { return tspace_direction(v - dot(
 
 fn tspace_mixed(normal: vec3f, sums: tspace_Sums) -> vec3f {
     var n: vec3f = tspace_unitNormal(normal);
-    var accurate: vec3f = tspace_across(n, tspace_direction(sums.a));
-    var robust: vec3f = tspace_across(n, tspace_direction(sums.b));
+    var accurate: vec3f = tspace_across(n, tspace_inverseSize(tspace_largest(sums.a)) * sums.a);
+    var robust: vec3f = tspace_across(n, tspace_inverseSize(tspace_largest(sums.b)) * sums.b);
     var across: vec3f = cross(accurate, robust);
     var square: f32 = dot(across, across);
     if (dot(accurate, robust) < 0.0) {
@@ -452,19 +767,28 @@ fn tspace_mixed(normal: vec3f, sums: tspace_Sums) -> vec3f {
 // Returns the tangent of lengyel from the sums of dP/du and dP/dv, by Gram-Schmidt. w: the sign.
 fn tspace_fromDerivatives(n: vec3f, sums: tspace_Sums) -> vec4f {
     var largest: f32 = tspace_largest(sums.a);
-    if (!(largest > 0.0) || !(largest < tspace_greatest)) {
+    if (!(largest > 0.0) || !(largest < tspace_greatest) || !tspace_isFinite(n)) {
         return vec4f(1.0, 0.0, 0.0, 1.0);
     }
     var s: vec3f = sums.a / largest;
-    var rest: vec3f = s - dot(n, s) * n;
+    var b: vec3f = sums.b / max(tspace_largest(sums.b), tspace_least_normal);
+    var along: f32 = dot(n, s);
+    var rest: vec3f = s - along * n;
+    var volume: f32 = dot(cross(n, rest), b);
+    var is_mirrored: bool = volume < 0.0;
+    // Far from these limits, rounding does not decide.
     var size: f32 = tspace_largest(rest);
+    if (!(size > 0.0625 * abs(along)) || !(abs(volume) > 0.001 * size)) {
+        rest = tspace_wideRest(n, sums.a);
+        is_mirrored = tspace_isMirrored(n, sums.a, sums.b);
+        size = tspace_largest(rest);
+    }
     if (!(size > 0.0)) {
         return vec4f(1.0, 0.0, 0.0, 1.0);
     }
     var t: vec3f = tspace_direction(rest / size);
     var sign: f32 = 1.0;
-    var b: vec3f = sums.b / max(tspace_largest(sums.b), tspace_least_normal);
-    if (dot(cross(n, t), b) < 0.0) {
+    if (is_mirrored) {
         sign = -1.0;
     }
     return vec4f(t.x, t.y, t.z, sign);
@@ -485,7 +809,7 @@ fn tspace_finish(normal: vec3f, sums: tspace_Sums, method: u32, flags: u32) -> v
     return tangent;
 }
 
-fn tspace_tangentOfResult(begin: u32, end: u32, flags: u32, own: u32, made_normal: vec3f, scale: f32) -> vec4f {
+fn tspace_tangentOfResult(begin: u32, end: u32, flags: u32, made_normal: vec3f, scale: f32) -> vec4f {
     var method: u32 = tspace_plan[1];
     var makes_normals: bool = (tspace_plan[2] & 1u) != 0u;
     var sign: f32 = 1.0;
@@ -493,9 +817,6 @@ fn tspace_tangentOfResult(begin: u32, end: u32, flags: u32, own: u32, made_norma
         sign = -1.0;
     }
     var normal: vec3f = made_normal;
-    if (!makes_normals && own != tspace_next_part) {
-        normal = tspace_normalOf(tspace_vertexOf(own));
-    }
     var sums: tspace_Sums;
     sums.a = vec3f(0.0, 0.0, 0.0);
     sums.b = vec3f(0.0, 0.0, 0.0);
@@ -515,14 +836,14 @@ fn tspace_tangentOfResult(begin: u32, end: u32, flags: u32, own: u32, made_norma
         }
         if ((entry & tspace_no_tangent) == 0u) {
             var corner: tspace_Corner = tspace_cornerOf(entry);
+            if (!makes_normals) {
+                normal = tspace_normalOf(corner.vertex_number);
+            }
             if (method == 1u) {
-                var e1: vec3f = scale * corner.e1;
-                var e2: vec3f = scale * corner.e2;
-                var s: vec3f = bitcast<f32>(tspace_plan[corner.uvs]) * e1 - bitcast<f32>(tspace_plan[corner.uvs + 1u]) * e2;
-                var t: vec3f = bitcast<f32>(tspace_plan[corner.uvs + 2u]) * e2 - bitcast<f32>(tspace_plan[corner.uvs + 3u]) * e1;
-                if (tspace_isFinite(s) && tspace_isFinite(t)) {
-                    sums.a += s;
-                    sums.b += t;
+                var more: tspace_Sums = tspace_derivatives(corner);
+                if (tspace_isFinite(more.a) && tspace_isFinite(more.b)) {
+                    sums.a = tspace_kept(sums.a + more.a);
+                    sums.b = tspace_kept(sums.b + more.b);
                 }
             }
             if (method == 7u) {
@@ -531,10 +852,7 @@ fn tspace_tangentOfResult(begin: u32, end: u32, flags: u32, own: u32, made_norma
                 sums.b += more.b;
             }
             if (method != 1u && method != 7u) {
-                var n: vec3f = made_normal;
-                if (!makes_normals) {
-                    n = tspace_normalOf(corner.vertex_number);
-                }
+                var n: vec3f = normal;
                 if ((flags & 0x10000000u) != 0u) {
                     n = tspace_normalAt(entry, corner.vertex_number);
                 }
@@ -830,7 +1148,7 @@ fn tspace_evaluateResult(result: u32) {
     var own: u32 = tspace_plan[row + 2u];
     var end: u32 = begin + (flags & 0x0fffffffu);
     var scale: f32 = 1.0;
-    if ((tspace_plan[2] & 1u) != 0u || tspace_plan[1] == 1u || tspace_plan[1] == 7u) {
+    if ((tspace_plan[2] & 1u) != 0u || tspace_plan[1] == 7u) {
         scale = tspace_scaleOf(begin, end);
     }
     var normal: vec3f = vec3f(0.0, 0.0, 1.0);
@@ -849,7 +1167,7 @@ fn tspace_evaluateResult(result: u32) {
     }
     var tangent: vec4f = vec4f(0.0, 0.0, 0.0, 0.0);
     if ((flags & 0x20000000u) == 0u) {
-        tangent = tspace_tangentOfResult(begin, end, flags, own, normal, scale);
+        tangent = tspace_tangentOfResult(begin, end, flags, normal, scale);
     }
     if (tspace_setting(tspace_tangent_format) != 0u && (tspace_plan[2] & 1u) == 0u && own != tspace_next_part) {
         normal = tspace_normalOf(tspace_vertexOf(own));

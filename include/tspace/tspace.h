@@ -1076,7 +1076,9 @@ typedef struct tspace_PlanBufferOptions {
  * 0xffffffff separates parts of a result that is the normalized mean of several.
  * Triangles: three vertices, then UV coefficients as floats: (a, b) with dP/du along a * e1 - b * e2, where e1 = P1
  * - P0, e2 = P2 - P0; for TSPACE_METHOD_LENGYEL (a, b, c, d) with dP/du = a * e1 - b * e2 and dP/dv = c * e2 - d *
- * e1.
+ * e1. If a triangle's UV area is nearly lost in rounding, a is 0xffffffff, and b is the index of the first of ten
+ * words after the triangles: five doubles, each with its high word first, r, t2, t1, s1, s2, with dP/du = r * (t2 *
+ * e1 - t1 * e2) and dP/dv = r * (s1 * e2 - s2 * e1).
  * In C: allocated by the library; later versions may append fields. */
 typedef struct tspace_PlanBuffers {
     const uint32_t* words;

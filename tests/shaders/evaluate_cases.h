@@ -67,8 +67,10 @@ std::vector<PosedMesh> sharedMeshes();
 /// Differences over many poses. Results that are not finite in the library are ignored.
 struct Differences {
     std::size_t count = 0, wrong_signs = 0, not_finite = 0, not_zero = 0;
-    std::size_t unstable =
-        0;  ///< skipped, because changing each coordinate by its last bit rotates the library's result by kUnstable
+    /// Only their signs are compared, because changing each coordinate by its last bit rotates the library's result by
+    /// kUnstable.
+    std::size_t unstable = 0;
+    std::size_t huge = 0;  ///< only required to be finite, because intermediate results exceed the range of floats
     static constexpr double kUnstable = 0.0002;  ///< degrees
     std::string failure;                         ///< failure of the shader, or of the library
     std::string where;                           ///< location of the largest difference
@@ -77,7 +79,8 @@ struct Differences {
 
     /// Adds the difference between a result and the expected one. `nearby`: the library's results for poses with other
     /// last bits.
-    void add(const Vec4& expected, std::span<const Vec4> nearby, const Vec4& found, const std::string& place);
+    void add(const Vec4& expected, std::span<const Vec4> nearby, const Vec4& found, const std::string& place,
+             bool is_huge = false);
     /// Returns the difference that this share of all results does not exceed.
     [[nodiscard]] float percentile(double share);
     [[nodiscard]] std::string text();

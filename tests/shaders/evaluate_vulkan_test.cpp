@@ -33,6 +33,12 @@ TEST_P(EvaluateLanguage, GivesTheFramesOfTheLibrary) {
     ASSERT_FALSE(spirv.empty()) << GetParam();
     expectTangents(generatedMeshes(), evaluateOn(*vulkan, spirv));
     expectFrames(generatedMeshes(), evaluateOn(*vulkan, spirv));
+    const std::vector<PosedMesh> shared = sharedMeshes();
+    for (const Method method : {Method::lengyel, Method::fast}) {
+        if (!shared.empty())
+            expectNear(evaluateAll(shared, {.method = method}, evaluateOn(*vulkan, spirv)).tangents,
+                       std::string("shared meshes, ") + methodName(method));
+    }
 
     // Two runs must give the same bits.
     const Evaluate once = evaluateOn(*vulkan, spirv);
@@ -72,20 +78,27 @@ TEST(EvaluateShader, IsWrongIfAPartIsReplaced) {
     std::string why;
     const std::unique_ptr<VulkanCompute> vulkan = VulkanCompute::open(why);
     if (vulkan == nullptr) GTEST_SKIP() << why;
+    const std::vector<PosedMesh> generated = generatedMeshes(), shared = sharedMeshes();
     struct Mutation {
         const char *from, *to;
         Method method;
+        const std::vector<PosedMesh>* meshes;
     };
-    constexpr Mutation kMutations[] = {
+    const Mutation mutations[] = {
         {"weight = tspace_arcCosine(dot(tspace_flatten(n, corner.previous)",
-         "weight = 1.0 + 0.0 * (dot(tspace_flatten(n, corner.previous)", Method::mikktspace},
-        {"sums.a += tspace_weightedTangent", "sums.a = tspace_weightedTangent", Method::uniform},
-        {"float square = dot(across, across);", "float square = 0.0;", Method::fast},
+         "weight = 1.0 + 0.0 * (dot(tspace_flatten(n, corner.previous)", Method::mikktspace, &generated},
+        {"sums.a += tspace_weightedTangent", "sums.a = tspace_weightedTangent", Method::uniform, &generated},
+        {"float square = dot(across, across);", "float square = 0.0;", Method::fast, &generated},
+        {"return tspace_wideDerivatives(corner);", "return made;", Method::lengyel, &generated},
+        // Only on the shared meshes, the last bits of sums decide signs.
+        {"is_mirrored = tspace_isMirrored(n, sums.a, sums.b);", "", Method::lengyel, &shared},
+        {"if (last != 0u && ", "if (last > 1u && ", Method::lengyel, &shared},
     };
-    for (const Mutation& mutation : kMutations) {
+    for (const Mutation& mutation : mutations) {
+        if (mutation.meshes->empty()) continue;
         const std::vector<std::uint32_t> spirv = mutant(mutation.from, mutation.to);
         ASSERT_FALSE(spirv.empty()) << mutation.from;
-        Outcome outcome = evaluateAll(generatedMeshes(), {.method = mutation.method}, evaluateOn(*vulkan, spirv));
+        Outcome outcome = evaluateAll(*mutation.meshes, {.method = mutation.method}, evaluateOn(*vulkan, spirv));
         EXPECT_FALSE(isNear(outcome.tangents)) << mutation.from << ": " << outcome.tangents.text();
     }
 }

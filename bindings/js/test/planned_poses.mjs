@@ -20,7 +20,7 @@ export function posed({ positions, targets, joints, jointWeights }, weights, mat
       const row = 12 * joints[4 * v + i], weight = jointWeights[4 * v + i];
       for (let k = 0; k < 3; ++k) {
         const [a, b, c, d] = matrices.subarray(row + 4 * k, row + 4 * k + 4);
-        sum[k] = round(sum[k] + round(weight * round(round(round(a * x) + round(b * y)) + round(round(c * z) + d))));
+        sum[k] = round(sum[k] + round(weight * round(round(round(round(a * x) + round(b * y)) + round(c * z)) + d)));
       }
     }
     moved.set(sum, 3 * v);
@@ -42,13 +42,16 @@ export function prepared(mesh, options) {
   return { vertices, plain, plan, buffers: planBuffers(plan, { sourceCorners: made.sourceCorners, mesh: plain }), sourceCorners: made.sourceCorners };
 }
 
-/** Computes normals and tangents of each result with the module. `isUsed`: 0 for results of vertices that no triangle uses. */
-export function expected({ plain, plan, sourceCorners }, positions) {
+/**
+ * Computes normals and tangents of each result with the module. `isUsed`: 0 for results of vertices that no triangle uses.
+ * `given`: normals for the tangents; where a tangent is nearly parallel to the normal, the last bits of the normal turn it.
+ */
+export function expected({ plain, plan, sourceCorners }, positions, given) {
   const corners = generateNormals({ positions, indices: plain.indices });
   const normals = plain.normals.slice();
   plain.indices.forEach((vertex, corner) => normals.set(corners.subarray(3 * corner, 3 * corner + 3), 3 * vertex));
   const isUsed = sourceCorners.map((corner) => (corner === 0xffffffff ? 0 : 1));
-  return { normals, tangents: gather(plan.evaluate({ positions, normals }), 4, sourceCorners.map((corner, i) => corner * isUsed[i])), isUsed };
+  return { normals, tangents: gather(plan.evaluate({ positions, normals: given ?? normals }), 4, sourceCorners.map((corner, i) => corner * isUsed[i])), isUsed };
 }
 
 const degrees = (a, b, at, to) => {

@@ -12,6 +12,7 @@
 
 #include "core/base/border.h"
 #include "core/estimate/pose_normals.h"
+#include "core/tangents/derivative_terms.h"
 #include "core/tangents/plan_parts.h"
 #include "tspace/indexed_frames.h"
 
@@ -61,6 +62,12 @@ struct TangentSources {
     WordList vertices;                                  ///< vertex of each half-edge
     WordList corners;                                   ///< corner of each half-edge
     std::vector<float> uvs;                             ///< UV coefficients of each triangle (PlanBuffers)
+    /// UVs of triangles that need doubles (PlanBuffers), in ascending order of triangles.
+    struct DoubleUvs {
+        std::size_t triangle;
+        double values[5];
+    };
+    std::vector<DoubleUvs> double_uvs;
 
     [[nodiscard]] std::size_t triangleCount() const { return vertices.size() / 3; }
 };
@@ -151,23 +158,68 @@ class GroupedSources {
     WordList members_;  // source of each member of a group that splits
 };
 
+/// Computes the UV coefficients of triangles for lengyel by its own kernel: dP/du and dP/dv of the triangle (0, 0, 0),
+/// (1, 0, 0), (0, 1, 0) are (a, -b, 0) and (-d, c, 0).
+class UvCoefficients {
+  public:
+    UvCoefficients(const IndexedPlan& plan, SimdTarget simd, TangentSources& to)
+        : plan_(plan), kernel_(derivatives::derivativeKernelFor(simd)), to_(to) {
+        for (std::uint32_t i = 0; i < kCorners; ++i) {
+            corners_[i] = i;
+            positions_[i] = {i % 3 == 1 ? 1.0f : 0.0f, i % 3 == 2 ? 1.0f : 0.0f, 0};
+        }
+    }
+
+    void write() {
+        for (std::size_t first = 0; first < plan_.triangleCount(); first += derivatives::kTermTriangles)
+            writeBlock(first, std::min(plan_.triangleCount() - first, derivatives::kTermTriangles));
+    }
+
+  private:
+    static constexpr std::uint32_t kCorners = 3 * derivatives::kTermTriangles;
+
+    void writeBlock(std::size_t first, std::size_t count) {
+        for (std::size_t i = 0; i < 3 * count; ++i) uvs_[i] = plan_.uvs[plan_.triangle_vertices[3 * first + i]];
+        kernel_.compute({reinterpret_cast<const std::byte*>(positions_), reinterpret_cast<const std::byte*>(uvs_),
+                         sizeof(Vec3), sizeof(Vec2), kCorners},
+                        corners_, count, terms_);
+        for (std::size_t t = 0; t < count; ++t) {
+            const float* const row = terms_.rows[t];
+            if ((terms_.safe >> t & 1) != 0)
+                to_.uvs.insert(to_.uvs.end(), {row[0], 0 - row[1], row[4], 0 - row[3]});
+            else
+                writeDoubles(first + t, uvs_ + 3 * t);
+        }
+    }
+
+    void writeDoubles(std::size_t triangle, const Vec2* uvs) {
+        const auto difference = [&](std::size_t k, float Vec2::*axis) {
+            return double{uvs[k].*axis} - double{uvs[0].*axis};
+        };
+        to_.uvs.insert(to_.uvs.end(), 4, 0.0f);
+        const double determinant = uvFrame({}, {}, {}, uvs[0], uvs[1], uvs[2]).determinant;
+        if (!hasUvArea(determinant)) return;
+        to_.double_uvs.push_back({triangle,
+                                  {1 / determinant, difference(2, &Vec2::y), difference(1, &Vec2::y),
+                                   difference(1, &Vec2::x), difference(2, &Vec2::x)}});
+    }
+
+    const IndexedPlan& plan_;
+    derivatives::DerivativeKernel kernel_;
+    TangentSources& to_;
+    std::uint32_t corners_[kCorners];
+    Vec3 positions_[kCorners + 1] = {};  // the kernel reads 4 bytes after a vector
+    Vec2 uvs_[kCorners] = {};
+    derivatives::DerivativeTerms terms_;
+};
+
 /// Returns the sources of lengyel, where each vertex is a source.
-TangentSources indexedSources(const IndexedPlan& plan) {
+TangentSources indexedSources(const IndexedPlan& plan, SimdTarget simd) {
     TangentSources to;
     const std::size_t half_edges = 3 * plan.triangleCount();
     const bool per_vertex = plan.domain == OutputDomain::vertex;
     for (std::size_t h = 0; h < half_edges; ++h) to.vertices.push_back(plan.triangle_vertices[h]);
-    for (std::size_t h = 0; h < half_edges; h += 3) {
-        const std::uint32_t* const v = to.vertices.data() + h;
-        const UvFrame frame = uvFrame({}, {}, {}, plan.uvs[v[0]], plan.uvs[v[1]], plan.uvs[v[2]]);
-        const double r = hasUvArea(frame.determinant) ? 1 / frame.determinant : 0;
-        const auto d = [&](std::size_t k, bool of_v) {
-            const Vec2 &from = plan.uvs[v[0]], &at = plan.uvs[v[k]];
-            const double value = r * (of_v ? double{at.y} - double{from.y} : double{at.x} - double{from.x});
-            return std::fabs(value) < 3e38 ? static_cast<float>(value) : 0.0f;
-        };
-        to.uvs.insert(to.uvs.end(), {d(2, true), d(1, true), d(1, false), d(2, false)});
-    }
+    UvCoefficients(plan, simd, to).write();
     to.parts = Lists::sorted(half_edges, plan.vertex_count, [&](std::uint32_t h) { return to.vertices[h]; });
     to.sources.items.resize(plan.vertex_count);
     std::iota(to.sources.items.begin(), to.sources.items.end(), 0u);
@@ -183,13 +235,13 @@ TangentSources indexedSources(const IndexedPlan& plan) {
 
 class BufferWriter {
   public:
-    BufferWriter(const TangentPlan& plan, const PlanParts& parts, const PlanBufferOptions& options)
+    BufferWriter(const TangentPlan& plan, const PlanParts& parts, const PlanBufferOptions& options, SimdTarget simd)
         : plan_(plan),
           options_(options),
           is_lengyel_(parts.indexed != nullptr),
           normalizes_(parts.normalizes_normals),
           convention_(parts.grouped != nullptr ? parts.grouped->convention : options.normals.convention),
-          in_(is_lengyel_ ? indexedSources(*parts.indexed) : GroupedSources(*parts.grouped).read()),
+          in_(is_lengyel_ ? indexedSources(*parts.indexed, simd) : GroupedSources(*parts.grouped).read()),
           fold_(is_lengyel_ ? 1.0f : signFactor(convention_) * normalFactor(convention_)) {}
 
     Result<PlanBuffers> write(const Execution& execution) {
@@ -366,6 +418,16 @@ class BufferWriter {
             for (std::size_t i = uv_words * t; i < uv_words * (t + 1); ++i)
                 words.push_back(std::bit_cast<std::uint32_t>(in_.uvs[i]));
         }
+        for (const TangentSources::DoubleUvs& uvs : in_.double_uvs) {
+            std::uint32_t* const to = words.data() + words[PlanBuffers::triangles] + (3 + uv_words) * uvs.triangle + 3;
+            to[0] = PlanBuffers::kDoubles;
+            to[1] = size(words);
+            for (const double value : uvs.values) {
+                const auto bits = std::bit_cast<std::uint64_t>(value);
+                words.push_back(static_cast<std::uint32_t>(bits >> 32));
+                words.push_back(static_cast<std::uint32_t>(bits));
+            }
+        }
     }
 
     const TangentPlan& plan_;
@@ -416,7 +478,7 @@ Result<PlanBuffers> planBuffers(const TangentPlan& plan, const PlanBufferOptions
     return atBorder([&]() -> Result<PlanBuffers> {
         const PlanParts parts = partsOf(plan);
         if (Error e = checkBuffers(plan, parts, options); e.code != ErrorCode::ok) return e;
-        return BufferWriter(plan, parts, options).write(execution);
+        return BufferWriter(plan, parts, options, execution.simd).write(execution);
     });
 }
 

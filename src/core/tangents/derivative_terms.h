@@ -27,8 +27,9 @@ inline constexpr std::size_t kTermGroup = 16;
 struct DerivativeTerms {
     /// s.x s.y s.z t.x t.y t.z, with s = dP/du and t = dP/dv; s.x is never -0
     alignas(64) float rows[kTermTriangles][8];
-    std::uint64_t safe = 0;      ///< bits of the triangles for which single precision is accurate enough
-    std::uint64_t mirrored = 0;  ///< safe triangles with negative UV area
+    std::uint64_t safe = 0;        ///< bits of the triangles for which single precision is accurate enough
+    std::uint64_t mirrored = 0;    ///< safe triangles with negative UV area
+    std::uint64_t degenerate = 0;  ///< triangles with two corners at the same position
 };
 
 /// Sums of all vertices, six floats per vertex in two arrays.

@@ -43,7 +43,7 @@ inline Group load(const TriangleSource& source, const std::uint32_t* vertices, b
 }
 
 struct GroupBits {
-    unsigned safe, mirrored;
+    unsigned safe, mirrored, degenerate;
 };
 
 /// Writes the rows of kWidth triangles.
@@ -56,16 +56,17 @@ struct GroupBits {
                 (size < broadcast(kGreatest));
 
     const Vectors e1 = g.p[1] - g.p[0], e2 = g.p[2] - g.p[0];
-    // Excludes degenerate triangles. Positions are compared only if two corners have equal x, which is rare.
+    // Positions are compared only if two corners have equal x, which is rare.
+    unsigned degenerate = 0;
     if (bitsOf((e1.x == zero) | (e2.x == zero) | (g.p[1].x == g.p[2].x)) != 0) [[unlikely]]
-        safe = safe & !(equal(g.p[0], g.p[1]) | equal(g.p[0], g.p[2]) | equal(g.p[1], g.p[2]));
+        degenerate = bitsOf(equal(g.p[0], g.p[1]) | equal(g.p[0], g.p[2]) | equal(g.p[1], g.p[2]));
     // Divides first: products of edges and UV differences can exceed the range of float, but quotients cannot.
     const Vectors s = (t2 * r) * e1 - (t1 * r) * e2, t = (s1 * r) * e2 - (s2 * r) * e1;
     // 0 * x is 0 unless x is infinite or NaN, so this excludes triangles whose results overflow.
     safe = safe & (zero * ((s.x + s.y + s.z) + (t.x + t.y + t.z)) == zero);
     storeRows<8>(rows, s.x + zero, s.y, s.z, t.x);
     storePairs<8>(rows + 4, t.y, t.z);
-    return {bitsOf(safe), bitsOf(safe & (determinant < zero))};
+    return {bitsOf(safe), bitsOf(safe & (determinant < zero)), degenerate};
 }
 
 /// Returns whether any vertex is the last one in memory, after which nothing may be read.
@@ -78,15 +79,17 @@ inline bool includesLastVertex(const std::uint32_t* vertices, std::size_t count,
 template <bool kTight>
 inline void computeBlock(const TriangleSource& source, const std::uint32_t* vertices, std::size_t count, bool exact,
                          DerivativeTerms& terms) {
-    std::uint64_t safe = 0, mirrored = 0;
+    std::uint64_t safe = 0, mirrored = 0, degenerate = 0;
     for (std::size_t i = 0; i < count; i += kWidth) {
         const GroupBits bits = writeRows(load<kTight>(source, vertices + 3 * i, exact), terms.rows[i]);
         safe |= std::uint64_t{bits.safe} << i;
         mirrored |= std::uint64_t{bits.mirrored} << i;
+        degenerate |= std::uint64_t{bits.degenerate} << i;
     }
     const std::uint64_t known = ~std::uint64_t{0} >> (kTermTriangles - count);
     terms.safe = safe & known;
     terms.mirrored = mirrored & known;
+    terms.degenerate = degenerate & known;
 }
 
 void compute(const TriangleSource& source, const std::uint32_t* vertices, std::size_t count, DerivativeTerms& terms) {

@@ -141,16 +141,21 @@ class FaceSums {
             unsafe &= unsafe - 1;
             begin = end + 1;
         }
-        if (batch.is_whole) {
-            counts.mirrored += static_cast<unsigned>(std::popcount(terms.mirrored));
-        } else {
-            for (std::size_t i = 0; i < batch.count; ++i)
-                counts.mirrored += (terms.mirrored >> i & 1) != 0 && range.has(v[3 * i]) ? 1u : 0u;
-        }
+        counts.mirrored += countIn(range, batch, terms.mirrored);
+        counts.degenerate += countIn(range, batch, terms.degenerate);
         if (visits_ == nullptr) return;
         for (std::size_t i = 0; i < 3 * batch.count; ++i) {
             if ((terms.safe >> (i / 3) & 1) != 0 && range.has(v[i])) visits_[v[i]] += 1;
         }
+    }
+
+    /// Returns the number of marked triangles that are counted in this range.
+    static unsigned countIn(GroupRange range, const TriangleBatch& batch, std::uint64_t marked) {
+        if (batch.is_whole) return static_cast<unsigned>(std::popcount(marked));
+        unsigned count = 0;
+        for (; marked != 0; marked &= marked - 1)
+            count += range.has(batch.groups[3 * static_cast<unsigned>(std::countr_zero(marked))]) ? 1u : 0u;
+        return count;
     }
 
     /// Adds one triangle, computed in double precision. A triangle without derivatives adds nothing, but marks its
@@ -160,7 +165,6 @@ class FaceSums {
         const UvFrame frame = uvFrame(p0, p1, p2, plan_.uvs[v[0]], plan_.uvs[v[1]], plan_.uvs[v[2]]);
         const bool has_area = hasUvArea(frame.determinant);
         if (range.has(v[0])) {
-            counts.degenerate += p0 == p1 || p1 == p2 || p2 == p0 ? 1u : 0u;
             counts.degenerate_uv += has_area ? 0 : 1;
             counts.mirrored += has_area && frame.determinant < 0 ? 1 : 0;
         }

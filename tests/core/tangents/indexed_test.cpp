@@ -115,6 +115,23 @@ TEST(Lengyel, GivesTheNumbersOfItsPage) {
     for (const Vec4& t : tangentsOf(mesh.view(), gltf).tangents) EXPECT_EQ(t.w, 1);
 }
 
+TEST(Lengyel, GivesParallelDerivativesTheSignOne) {
+    // A triangle without area: dP/du and dP/dv are parallel to z, so their determinant with the normal is exactly 0.
+    for (const Method method : {Method::lengyel, Method::flat}) {
+        for (int i = 0; i < 200; ++i) {
+            const auto part = [&](int k) { return static_cast<float>((i * k) % 37 - 18) / 19.0f; };
+            SimpleMesh mesh;
+            mesh.positions = {{0, 0, 0}, {0, 0, 0.3f}, {0, 0, 0}};
+            mesh.normals.assign(3, {part(7), part(11) + 0.01f, part(13)});
+            mesh.uvs = {{0, 0}, {0.7f, 0.1f}, {0.2f, 0.9f}};
+            mesh.addFace({0, 1, 2});
+            const Outputs out = tangentsOf(mesh.view(), {.method = method, .convention = conventions::opengl});
+            for (const Vec4& t : out.tangents) EXPECT_EQ(t.w, 1) << i;
+            EXPECT_EQ(out.report.degenerate_triangle_count, 1u);
+        }
+    }
+}
+
 TEST(Lengyel, SumsUnnormalizedDerivatives) {
     // At vertex 0 one face has T = (1, 0, 0) and the other T = (0, 3, 0), which has three times the weight because it
     // is longer.
