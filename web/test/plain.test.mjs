@@ -19,7 +19,7 @@ const models = [
 ].map((name) => join(shared ?? "", "models", name));
 const shown = models.filter((_, i) => isLong || i % 5 === 1);
 
-test("models look like in three.js: mean difference of at most 6 of 255", { skip: noShared || (!plain && "the page of three.js alone is not built"), timeout: 3_600_000 }, async (t) => {
+test("models look like in three.js: mean difference of at most 3 of 255", { skip: noShared || (!plain && "the page of three.js alone is not built"), timeout: 3_600_000 }, async (t) => {
   const own = new Map();
   await withPage(async (tab) => {
     for (const path of shown) {
@@ -37,7 +37,7 @@ test("models look like in three.js: mean difference of at most 6 of 255", { skip
       const { mean, count } = difference(overGray(text), overGray(theirs));
       t.diagnostic(`${path.split("/").pop()}: ${mean.toFixed(2)} of 255 over ${count} pixels`);
       assert.ok(count > 1000, path);
-      assert.ok(mean <= 6, `${path}: ${mean}`);
+      assert.ok(mean <= 3, `${path}: ${mean}`);
       means.push(mean);
     }
     t.diagnostic(`mean over ${means.length} models ${(means.reduce((a, b) => a + b, 0) / means.length).toFixed(2)}, largest ${Math.max(...means).toFixed(2)}`);
