@@ -61,22 +61,14 @@ class Mutator {
         const std::size_t at = below(input.size());
         const auto place = input.begin() + static_cast<std::ptrdiff_t>(at);
         switch (below(7)) {
-            case 0:
-                *place ^= static_cast<std::uint8_t>(1U << below(8));
-                break;
-            case 1:
-                *place = kTelling[below(std::size(kTelling))];
-                break;
-            case 2:
-                *place = static_cast<std::uint8_t>(random_());
-                break;
+            case 0: *place ^= static_cast<std::uint8_t>(1U << below(8)); break;
+            case 1: *place = kTelling[below(std::size(kTelling))]; break;
+            case 2: *place = static_cast<std::uint8_t>(random_()); break;
             case 3:
                 input.erase(place, place + static_cast<std::ptrdiff_t>(
                                                1 + below(std::min<std::size_t>(input.size() - at, 16))));
                 break;
-            case 4:
-                input.resize(at);
-                break;
+            case 4: input.resize(at); break;
             case 5: {
                 const Input piece(place, place + static_cast<std::ptrdiff_t>(
                                                      below(std::min<std::size_t>(input.size() - at, 32) + 1)));

@@ -130,17 +130,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::writeFile(files.a, fuzz::ModelMaker(in, image).glb());
     fuzz::writeFile(files.b, fuzz::ModelMaker(in).glb());
     switch (call % 4) {
-        case 0:
-            convert(in, files);
-            break;
-        case 1:
-            heights(in, files);
-            break;
-        case 2:
-            bake(in, files);
-            break;
-        default:
-            measure(in, files);
+        case 0: convert(in, files); break;
+        case 1: heights(in, files); break;
+        case 2: bake(in, files); break;
+        default: measure(in, files);
     }
     return 0;
 }

@@ -197,17 +197,10 @@ class ModelMaker {
         for (std::size_t n = 0; n < 3; ++n) {
             list += (n == 0 ? "" : ",") + std::string("{\"mesh\":") + std::to_string(in_.byte() % 2);
             switch (in_.byte() % 4) {
-                case 0:
-                    list += ",\"matrix\":" + numbers(16);
-                    break;
-                case 1:
-                    list += ",\"scale\":" + numbers(3) + ",\"translation\":" + numbers(3);
-                    break;
-                case 2:
-                    list += ",\"rotation\":" + numbers(4);
-                    break;
-                default:
-                    break;
+                case 0: list += ",\"matrix\":" + numbers(16); break;
+                case 1: list += ",\"scale\":" + numbers(3) + ",\"translation\":" + numbers(3); break;
+                case 2: list += ",\"rotation\":" + numbers(4); break;
+                default: break;
             }
             list += n < 2 ? ",\"children\":[" + std::to_string(n + 1) + "]}" : "}";
         }

@@ -75,31 +75,20 @@ void estimateNormals(TestMesh& mesh) {
 
 const char* nameOf(Damage damage) {
     switch (damage) {
-        case Damage::none:
-            return "none";
-        case Damage::position_noise:
-            return "position-noise";
-        case Damage::uv_noise:
-            return "uv-noise";
-        case Damage::welded_uvs:
-            return "welded-uvs";
+        case Damage::none: return "none";
+        case Damage::position_noise: return "position-noise";
+        case Damage::uv_noise: return "uv-noise";
+        case Damage::welded_uvs: return "welded-uvs";
     }
     return "";
 }
 
 void damage(TestMesh& mesh, Damage kind, double share, Random random) {
     switch (kind) {
-        case Damage::none:
-            return;
-        case Damage::position_noise:
-            moveVertices(mesh, false, share, random);
-            break;
-        case Damage::uv_noise:
-            moveVertices(mesh, true, share, random);
-            break;
-        case Damage::welded_uvs:
-            weldUvs(mesh, share, random);
-            break;
+        case Damage::none: return;
+        case Damage::position_noise: moveVertices(mesh, false, share, random); break;
+        case Damage::uv_noise: moveVertices(mesh, true, share, random); break;
+        case Damage::welded_uvs: weldUvs(mesh, share, random); break;
     }
     estimateNormals(mesh);
 }

@@ -117,12 +117,9 @@ class Grid {
         const bool chance = random_.coin();
         switch (kind_) {
             case Tessellation::regular:
-            case Tessellation::loops:
-                return 0;
-            case Tessellation::alternating:
-                return (column + row) % 2;
-            default:
-                break;
+            case Tessellation::loops: return 0;
+            case Tessellation::alternating: return (column + row) % 2;
+            default: break;
         }
         // If a cell has a reflex corner, only one diagonal is inside.
         if (turn(a, b, c) <= 0 || turn(a, c, d) <= 0) return 1;
@@ -155,18 +152,12 @@ class Grid {
 
 const char* nameOf(Tessellation tessellation) {
     switch (tessellation) {
-        case Tessellation::regular:
-            return "regular";
-        case Tessellation::alternating:
-            return "alternating";
-        case Tessellation::irregular:
-            return "irregular";
-        case Tessellation::random:
-            return "random";
-        case Tessellation::anisotropic:
-            return "anisotropic";
-        case Tessellation::loops:
-            return "loops";
+        case Tessellation::regular: return "regular";
+        case Tessellation::alternating: return "alternating";
+        case Tessellation::irregular: return "irregular";
+        case Tessellation::random: return "random";
+        case Tessellation::anisotropic: return "anisotropic";
+        case Tessellation::loops: return "loops";
     }
     return "";
 }

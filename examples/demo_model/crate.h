@@ -42,18 +42,12 @@ constexpr Place placeOf(Side side) {
     constexpr double half = kUvPerMeter * kHalfUnrolled;
     constexpr double strip_u = (0.25 - half) / 2, strip_v = (1 - 4 * half) / 2;
     switch (side) {
-        case Side::top:
-            return {strip_u, strip_v + half};
-        case Side::front:
-            return {strip_u, strip_v + 3 * half};
-        case Side::under:
-            return {0.25 + strip_u, strip_v + half};
-        case Side::back:
-            return {0.25 + strip_u, strip_v + 3 * half};
-        case Side::right:
-            return {0.75, 0.25};
-        case Side::left:
-            return {0.75, 0.75};
+        case Side::top: return {strip_u, strip_v + half};
+        case Side::front: return {strip_u, strip_v + 3 * half};
+        case Side::under: return {0.25 + strip_u, strip_v + half};
+        case Side::back: return {0.25 + strip_u, strip_v + 3 * half};
+        case Side::right: return {0.75, 0.25};
+        case Side::left: return {0.75, 0.75};
     }
     return {0, 0};
 }

@@ -78,8 +78,7 @@ double tread(Point p) {
 double detail(Side side, Point p) {
     const double inside = smoothstep(-0.03, -0.04, panel(p));
     switch (side) {
-        case Side::top:
-            return inside * 0.6 * plate(tread(p), 0.006);
+        case Side::top: return inside * 0.6 * plate(tread(p), 0.006);
         case Side::front: {
             if (std::abs(p.y) > 0.21) {
                 return 0;
@@ -105,8 +104,7 @@ double detail(Side side, Point p) {
             return plate(disc(p, 0.28), 0.01) + groove(disc(p, 0.19)) + plate(disc(p, 0.07), 0.012) +
                    groove(disc(p, 0.04)) + bolt;
         }
-        case Side::left:
-            return groove(disc(p, 0.27)) + plate(letterT(p), 0.012);
+        case Side::left: return groove(disc(p, 0.27)) + plate(letterT(p), 0.012);
     }
     return 0;
 }

@@ -44,15 +44,11 @@ struct IndexView {
     /// Returns the vertex of corner c. Not checked.
     [[nodiscard]] std::uint32_t operator[](std::size_t c) const {
         switch (type) {
-            case IndexType::u8:
-                return static_cast<const std::uint8_t*>(data)[c];
-            case IndexType::u16:
-                return static_cast<const std::uint16_t*>(data)[c];
-            case IndexType::u32:
-                return static_cast<const std::uint32_t*>(data)[c];
+            case IndexType::u8: return static_cast<const std::uint8_t*>(data)[c];
+            case IndexType::u16: return static_cast<const std::uint16_t*>(data)[c];
+            case IndexType::u32: return static_cast<const std::uint32_t*>(data)[c];
             case IndexType::none:
-            case IndexType::corners:
-                break;
+            case IndexType::corners: break;
         }
         return static_cast<std::uint32_t>(c);
     }

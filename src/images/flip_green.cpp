@@ -12,18 +12,12 @@ namespace tspace {
 
 ImageFileFormat fileFormat(ImageFormat input) {
     switch (input) {
-        case ImageFormat::png:
-            return ImageFileFormat::png;
-        case ImageFormat::jpeg:
-            return ImageFileFormat::jpeg;
-        case ImageFormat::webp:
-            return ImageFileFormat::webp;
-        case ImageFormat::ktx2:
-            return ImageFileFormat::ktx2;
-        case ImageFormat::dds:
-            return ImageFileFormat::dds;
-        default:
-            return ImageFileFormat::sameAsInput;
+        case ImageFormat::png: return ImageFileFormat::png;
+        case ImageFormat::jpeg: return ImageFileFormat::jpeg;
+        case ImageFormat::webp: return ImageFileFormat::webp;
+        case ImageFormat::ktx2: return ImageFileFormat::ktx2;
+        case ImageFormat::dds: return ImageFileFormat::dds;
+        default: return ImageFileFormat::sameAsInput;
     }
 }
 
@@ -137,16 +131,12 @@ std::uint64_t flipWorkBytes(ByteSpan bytes) {
             const bool is_interlaced = bytes.size() > kInterlaceAt && bytes[kInterlaceAt] != 0;
             return 12 * row_bytes + (is_interlaced ? row_bytes * claim.size.height : 0) + 2 * bytes.size();
         }
-        case ImageFormat::jpeg:
-            return claim.work_bytes + 3 * claim.size.pixels() + 2 * bytes.size();
-        case ImageFormat::webp:
-            return claim.work_bytes + 24 * claim.size.pixels();
+        case ImageFormat::jpeg: return claim.work_bytes + 3 * claim.size.pixels() + 2 * bytes.size();
+        case ImageFormat::webp: return claim.work_bytes + 24 * claim.size.pixels();
         case ImageFormat::ktx2:
         case ImageFormat::dds:
-        case ImageFormat::tga:
-            return claim.work_bytes + 24 * claim.size.pixels();
-        default:
-            return 0;
+        case ImageFormat::tga: return claim.work_bytes + 24 * claim.size.pixels();
+        default: return 0;
     }
 }
 

@@ -159,29 +159,21 @@ Codec codecOf(ImageFormat format) {
     const Codec webp{"WebP", "image/webp", "the image is WebP, which this build of tspace does not support"};
 #endif
     switch (format) {
-        case ImageFormat::png:
-            return png;
-        case ImageFormat::jpeg:
-            return jpeg;
-        case ImageFormat::webp:
-            return webp;
-        case ImageFormat::ktx2:
-            return {"KTX2", "image/ktx2", nullptr, claimOfTexture, decodeTexture};
+        case ImageFormat::png: return png;
+        case ImageFormat::jpeg: return jpeg;
+        case ImageFormat::webp: return webp;
+        case ImageFormat::ktx2: return {"KTX2", "image/ktx2", nullptr, claimOfTexture, decodeTexture};
         case ImageFormat::basis:
             return {"Basis Universal", "image/basis",
                     "the image is a Basis Universal file (.basis), which is not supported"};
-        case ImageFormat::dds:
-            return {"DDS", "image/vnd-ms.dds", nullptr, claimOfTexture, decodeTexture};
-        case ImageFormat::avif:
-            return {"AVIF", "image/avif", "the image is AVIF, which is not supported"};
-        case ImageFormat::exr:
-            return exrCodec();
+        case ImageFormat::dds: return {"DDS", "image/vnd-ms.dds", nullptr, claimOfTexture, decodeTexture};
+        case ImageFormat::avif: return {"AVIF", "image/avif", "the image is AVIF, which is not supported"};
+        case ImageFormat::exr: return exrCodec();
         case ImageFormat::tga:
 #ifndef TSPACE_SMALL
             return {"TGA", "", nullptr, claimOfTga, decodeIntegers<decodeTga>};
 #endif
-        case ImageFormat::unknown:
-            break;
+        case ImageFormat::unknown: break;
     }
     return {"", "", kUnknown};
 }

@@ -38,12 +38,9 @@ bool areBitsRight(const TgaHeader& head) {
     if (alpha != 0 && alpha != 8 && !(alpha == 1 && head.kind != TgaKind::gray && head.storedBits() == 16))
         return false;
     switch (head.kind) {
-        case TgaKind::palette:
-            return pixel == 8 && is_color(head.entry_bits) && head.entry_count != 0;
-        case TgaKind::colors:
-            return is_color(pixel);
-        case TgaKind::gray:
-            return pixel == 8 || pixel == 16;
+        case TgaKind::palette: return pixel == 8 && is_color(head.entry_bits) && head.entry_count != 0;
+        case TgaKind::colors: return is_color(pixel);
+        case TgaKind::gray: return pixel == 8 || pixel == 16;
     }
     return false;
 }

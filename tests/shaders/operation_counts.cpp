@@ -72,37 +72,24 @@ class Counter {
   private:
     void read(std::uint32_t op, std::span<const std::uint32_t> in) {
         switch (op) {
-            case kName:
-                names_[in[0]] = reinterpret_cast<const char*>(&in[1]);
-                return;
+            case kName: names_[in[0]] = reinterpret_cast<const char*>(&in[1]); return;
             case kTypeInt:
-            case kTypeFloat:
-                components_[in[0]] = 1;
-                return;
+            case kTypeFloat: components_[in[0]] = 1; return;
             case kTypeVector:
-            case kTypeMatrix:
-                components_[in[0]] = components_[in[1]] * in[2];
-                return;
+            case kTypeMatrix: components_[in[0]] = components_[in[1]] * in[2]; return;
             case kFunction:
                 current_ = in[1];
                 functions_[current_].name = names_[current_];
                 return;
-            case kFunctionCall:
-                functions_[current_].calls.push_back(in[2]);
-                break;
-            case kLabel:
-                is_in_choice_ = choices_.count(in[0]) != 0;
-                return;
-            case kBranchConditional:
-                choices_[in[1]] = true;
-                return;
+            case kFunctionCall: functions_[current_].calls.push_back(in[2]); break;
+            case kLabel: is_in_choice_ = choices_.count(in[0]) != 0; return;
+            case kBranchConditional: choices_[in[1]] = true; return;
             case kStore:
                 // A store on one side of ?: is counted, but only once, because both sides belong to the same selection.
                 if (is_in_choice_) functions_[current_].own.operations += sizeOf(in[1]);
                 is_in_choice_ = false;
                 return;
-            default:
-                break;
+            default: break;
         }
         if (in.size() < 2) return;
         types_[in[1]] = in[0];  // correct for most instructions that have a result
@@ -127,26 +114,16 @@ class Counter {
     static void countExtended(std::uint32_t which, unsigned size, OperationCount& to) {
         switch (which) {
             case kInverseSqrt:
-            case kSqrt:
-                to.roots += size;
-                return;
+            case kSqrt: to.roots += size; return;
             case kSin:
-            case kCos:
-                to.sines += size;
-                return;
-            case kFMix:
-                to.operations += 3 * size;
-                return;
-            case kCross:
-                to.operations += 9;
-                return;
+            case kCos: to.sines += size; return;
+            case kFMix: to.operations += 3 * size; return;
+            case kCross: to.operations += 9; return;
             case kNormalize:
                 to.operations += 3 * size - 1;
                 ++to.roots;
                 return;
-            default:
-                to.operations += size;
-                return;  // such as absolute value, minimum and maximum
+            default: to.operations += size; return;  // such as absolute value, minimum and maximum
         }
     }
 

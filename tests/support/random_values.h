@@ -43,23 +43,16 @@ inline Vec3 randomUnit() {
 /// Returns a float of any kind: NaN, infinity, zero, a subnormal, a huge value, or an ordinary one.
 inline float randomGarbage() {
     switch (randomInt(0, 8)) {
-        case 0:
-            return 0.0f;
-        case 1:
-            return -0.0f;
-        case 2:
-            return std::numeric_limits<float>::quiet_NaN();
+        case 0: return 0.0f;
+        case 1: return -0.0f;
+        case 2: return std::numeric_limits<float>::quiet_NaN();
         case 3:
             return *rc::gen::arbitrary<bool>() ? std::numeric_limits<float>::infinity()
                                                : -std::numeric_limits<float>::infinity();
-        case 4:
-            return std::bit_cast<float>(*rc::gen::resize(rc::kNominalSize, rc::gen::arbitrary<std::uint32_t>()));
-        case 5:
-            return std::numeric_limits<float>::max();
-        case 6:
-            return std::numeric_limits<float>::denorm_min();
-        default:
-            return randomFloat(-2, 2);
+        case 4: return std::bit_cast<float>(*rc::gen::resize(rc::kNominalSize, rc::gen::arbitrary<std::uint32_t>()));
+        case 5: return std::numeric_limits<float>::max();
+        case 6: return std::numeric_limits<float>::denorm_min();
+        default: return randomFloat(-2, 2);
     }
 }
 

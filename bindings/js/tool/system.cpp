@@ -127,21 +127,11 @@ std::size_t strftime(char* to, std::size_t size, const char* format, const struc
                 number = time->tm_year + 1900;
                 digits = 4;
                 break;
-            case 'm':
-                number = time->tm_mon + 1;
-                break;
-            case 'd':
-                number = time->tm_mday;
-                break;
-            case 'H':
-                number = time->tm_hour;
-                break;
-            case 'M':
-                number = time->tm_min;
-                break;
-            default:
-                number = time->tm_sec;
-                break;
+            case 'm': number = time->tm_mon + 1; break;
+            case 'd': number = time->tm_mday; break;
+            case 'H': number = time->tm_hour; break;
+            case 'M': number = time->tm_min; break;
+            default: number = time->tm_sec; break;
         }
         int unit = 1;
         for (int i = 1; i < digits; ++i) unit *= 10;

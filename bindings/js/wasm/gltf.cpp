@@ -74,14 +74,10 @@ std::uint32_t callFiles(std::uint32_t verb, const ModelWords* models, const char
         switch (static_cast<Verb>(verb)) {
             case Verb::generate:
                 return c_files::generateBytes(&a, options, progress, &results[0], &results[1], &failure);
-            case Verb::check:
-                return c_files::checkBytes(&a, options, progress, &results[1], &failure);
-            case Verb::inspect:
-                return tspace_inspectBytes(&a, options, &results[1], &failure);
-            case Verb::identify:
-                return tspace_identifyBytes(&a, options, &results[1], &failure);
-            case Verb::diff:
-                break;
+            case Verb::check: return c_files::checkBytes(&a, options, progress, &results[1], &failure);
+            case Verb::inspect: return tspace_inspectBytes(&a, options, &results[1], &failure);
+            case Verb::identify: return tspace_identifyBytes(&a, options, &results[1], &failure);
+            case Verb::diff: break;
         }
         return tspace_diffBytes(&a, &b, options, &results[1], &failure);
     };

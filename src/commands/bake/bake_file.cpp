@@ -239,12 +239,9 @@ std::optional<MapSlot> slotOf(const FileBaking& state, MapLayer layer) {
             return shows(state.options.layers, MapLayer::orm) ? std::nullopt : std::optional(MapSlot::occlusion);
         case MapLayer::orm:
             return shows(state.options.layers, MapLayer::ao) ? MapSlot::occlusion_and_metal : MapSlot::metal;
-        case MapLayer::color:
-            return MapSlot::color;
-        case MapLayer::emission:
-            return MapSlot::emission;
-        default:
-            return {};
+        case MapLayer::color: return MapSlot::color;
+        case MapLayer::emission: return MapSlot::emission;
+        default: return {};
     }
 }
 
@@ -431,18 +428,10 @@ std::vector<Vec3> pictureOfOrigins(const BakedMap& map) {
     picture.reserve(map.origins.size());
     for (std::size_t i = 0; i < map.origins.size(); ++i) {
         switch (map.origins[i]) {
-            case TexelOrigin::background:
-                picture.push_back(kBackground);
-                break;
-            case TexelOrigin::padding:
-                picture.push_back(kPadding);
-                break;
-            case TexelOrigin::hit:
-                picture.push_back(map.overlaps[i] ? kOverlap : kHit);
-                break;
-            case TexelOrigin::missed:
-                picture.push_back(kMissed);
-                break;
+            case TexelOrigin::background: picture.push_back(kBackground); break;
+            case TexelOrigin::padding: picture.push_back(kPadding); break;
+            case TexelOrigin::hit: picture.push_back(map.overlaps[i] ? kOverlap : kHit); break;
+            case TexelOrigin::missed: picture.push_back(kMissed); break;
         }
     }
     return picture;
@@ -513,12 +502,9 @@ const char* directionsWord(const UsedRays& rays) {
     if (rays.has_cage) return "cage";
     if (rays.has_skew) return "skew";
     switch (rays.directions) {
-        case RayDirections::automatic:
-            return "auto";
-        case RayDirections::averaged:
-            return "averaged";
-        case RayDirections::normals:
-            break;
+        case RayDirections::automatic: return "auto";
+        case RayDirections::averaged: return "averaged";
+        case RayDirections::normals: break;
     }
     return "normals";
 }

@@ -27,17 +27,13 @@ std::string rangeText(const BakedLayerFile& layer) {
     const auto& most = layer.most;
     switch (layer.layer) {
         case MapLayer::height:
-        case MapLayer::thickness:
-            return fmt::format(", {:.4g} to {:.4g}", least[0], most[0]);
-        case MapLayer::curvature:
-            return fmt::format(", {:.4g} to {:.4g} per model unit", least[0], most[0]);
+        case MapLayer::thickness: return fmt::format(", {:.4g} to {:.4g}", least[0], most[0]);
+        case MapLayer::curvature: return fmt::format(", {:.4g} to {:.4g} per model unit", least[0], most[0]);
         case MapLayer::position:
             return fmt::format(", from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})", least[0], least[1],
                                least[2], most[0], most[1], most[2]);
-        case MapLayer::id:
-            return fmt::format(", {}", counted(layer.id_count, "id"));
-        default:
-            return layer.is_srgb ? ", sRGB" : "";
+        case MapLayer::id: return fmt::format(", {}", counted(layer.id_count, "id"));
+        default: return layer.is_srgb ? ", sRGB" : "";
     }
 }
 

@@ -33,14 +33,10 @@ std::size_t referencesTo(const Json& value, std::size_t texture) {
 /// Returns the VRM 0.x property of a slot, or null if there is none.
 const char* vrmPropertyOf(MapSlot slot) {
     switch (slot) {
-        case MapSlot::normal:
-            return "_BumpMap";
-        case MapSlot::color:
-            return "_MainTex";
-        case MapSlot::emission:
-            return "_EmissionMap";
-        default:
-            return nullptr;
+        case MapSlot::normal: return "_BumpMap";
+        case MapSlot::color: return "_MainTex";
+        case MapSlot::emission: return "_EmissionMap";
+        default: return nullptr;
     }
 }
 
@@ -79,18 +75,12 @@ struct SlotReference {
 std::vector<SlotReference> referencesOf(MapSlot slot) {
     constexpr SlotReference kOcclusion{"occlusionTexture", false}, kMetal{"metallicRoughnessTexture", true};
     switch (slot) {
-        case MapSlot::normal:
-            break;
-        case MapSlot::occlusion:
-            return {kOcclusion};
-        case MapSlot::metal:
-            return {kMetal};
-        case MapSlot::occlusion_and_metal:
-            return {kMetal, kOcclusion};
-        case MapSlot::color:
-            return {{"baseColorTexture", true}};
-        case MapSlot::emission:
-            return {{"emissiveTexture", false}};
+        case MapSlot::normal: break;
+        case MapSlot::occlusion: return {kOcclusion};
+        case MapSlot::metal: return {kMetal};
+        case MapSlot::occlusion_and_metal: return {kMetal, kOcclusion};
+        case MapSlot::color: return {{"baseColorTexture", true}};
+        case MapSlot::emission: return {{"emissiveTexture", false}};
     }
     return {{"normalTexture", false}};
 }
@@ -118,11 +108,8 @@ void setFactors(Json& material, MapSlot slot) {
             for (const char* factor : {"metallicFactor", "roughnessFactor"})
                 holderOf(material, {"", true})[factor] = 1.0;
             break;
-        case MapSlot::emission:
-            material["emissiveFactor"] = Json::array({1.0, 1.0, 1.0});
-            break;
-        default:
-            break;
+        case MapSlot::emission: material["emissiveFactor"] = Json::array({1.0, 1.0, 1.0}); break;
+        default: break;
     }
 }
 

@@ -21,40 +21,26 @@ namespace {
 
 const char* contentName(MapContent content) {
     switch (content) {
-        case MapContent::normals:
-            return "normals";
-        case MapContent::twoChannels:
-            return "twoChannels";
-        case MapContent::unsignedZ:
-            return "unsignedZ";
-        case MapContent::xInAlpha:
-            return "xInAlpha";
-        case MapContent::exchanged:
-            return "exchanged";
-        case MapContent::encoded:
-            return "encoded";
-        case MapContent::objectSpace:
-            return "objectSpace";
-        case MapContent::height:
-            return "height";
-        case MapContent::hemiOctahedral:
-            return "hemiOctahedral";
-        case MapContent::picture:
-            break;
+        case MapContent::normals: return "normals";
+        case MapContent::twoChannels: return "twoChannels";
+        case MapContent::unsignedZ: return "unsignedZ";
+        case MapContent::xInAlpha: return "xInAlpha";
+        case MapContent::exchanged: return "exchanged";
+        case MapContent::encoded: return "encoded";
+        case MapContent::objectSpace: return "objectSpace";
+        case MapContent::height: return "height";
+        case MapContent::hemiOctahedral: return "hemiOctahedral";
+        case MapContent::picture: break;
     }
     return "picture";
 }
 
 const char* greenName(GreenVerdict verdict) {
     switch (verdict) {
-        case GreenVerdict::up:
-            return "up";
-        case GreenVerdict::down:
-            return "down";
-        case GreenVerdict::mixed:
-            return "mixed";
-        case GreenVerdict::unknown:
-            break;
+        case GreenVerdict::up: return "up";
+        case GreenVerdict::down: return "down";
+        case GreenVerdict::mixed: return "mixed";
+        case GreenVerdict::unknown: break;
     }
     return "unknown";
 }

@@ -498,14 +498,10 @@ GreenSide sideOf(const NormalMap& map, const GreenTest& test) {
     if (!hasOwnGreen(map.analysis.layout)) return GreenSide::unknown;
     const bool is_declared = isDeclared(map);
     switch (test.verdict) {
-        case GreenVerdict::up:
-            return is_declared ? GreenSide::down : GreenSide::up;
-        case GreenVerdict::down:
-            return is_declared ? GreenSide::up : GreenSide::down;
-        case GreenVerdict::mixed:
-            return GreenSide::mixed;
-        case GreenVerdict::unknown:
-            break;
+        case GreenVerdict::up: return is_declared ? GreenSide::down : GreenSide::up;
+        case GreenVerdict::down: return is_declared ? GreenSide::up : GreenSide::down;
+        case GreenVerdict::mixed: return GreenSide::mixed;
+        case GreenVerdict::unknown: break;
     }
     return GreenSide::unknown;
 }

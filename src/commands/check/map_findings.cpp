@@ -38,24 +38,16 @@ std::string axisText(const char* axis, const MapComponent& component) {
 
 FindingCode codeOf(MapContent content) {
     switch (content) {
-        case MapContent::twoChannels:
-            return FindingCode::normalMapTwoChannels;
-        case MapContent::unsignedZ:
-            return FindingCode::normalMapUnsigned;
+        case MapContent::twoChannels: return FindingCode::normalMapTwoChannels;
+        case MapContent::unsignedZ: return FindingCode::normalMapUnsigned;
         case MapContent::xInAlpha:
-        case MapContent::exchanged:
-            return FindingCode::normalMapChannels;
-        case MapContent::encoded:
-            return FindingCode::normalMapIsSrgb;
-        case MapContent::objectSpace:
-            return FindingCode::normalMapInObjectSpace;
-        case MapContent::picture:
-            return FindingCode::normalMapIsPicture;
-        case MapContent::hemiOctahedral:
-            return FindingCode::normalMapTwoChannels;
+        case MapContent::exchanged: return FindingCode::normalMapChannels;
+        case MapContent::encoded: return FindingCode::normalMapIsSrgb;
+        case MapContent::objectSpace: return FindingCode::normalMapInObjectSpace;
+        case MapContent::picture: return FindingCode::normalMapIsPicture;
+        case MapContent::hemiOctahedral: return FindingCode::normalMapTwoChannels;
         case MapContent::normals:
-        case MapContent::height:
-            break;
+        case MapContent::height: break;
     }
     return FindingCode::normalMapIsHeight;
 }
@@ -143,8 +135,7 @@ FindingText textOf(const NamedImage& image, const MapAnalysis& analysis) {
                              " hold x + y and x - y of (x, y, z) / (|x| + |y| + z), as the slopes of the map show, and "
                              "glTF does not have this encoding"};
         case MapContent::normals:
-        case MapContent::height:
-            break;
+        case MapContent::height: break;
     }
     return {.cause = name + " is gray, not a normal map; it may be a height map"};
 }

@@ -169,16 +169,11 @@ bool mayHaveCurve(const MapAnalysis& analysis, const DecodedMap& map, std::span<
     switch (analysis.content) {
         case MapContent::encoded:
         case MapContent::picture:
-        case MapContent::twoChannels:
-            return true;
-        case MapContent::normals:
-            return unitShare(texels) < kFewUnit;
-        case MapContent::objectSpace:
-            return !analysis.follows_mesh;
-        case MapContent::height:
-            return !map.alpha.empty();  // x or y in gray, beside alpha
-        default:
-            return false;
+        case MapContent::twoChannels: return true;
+        case MapContent::normals: return unitShare(texels) < kFewUnit;
+        case MapContent::objectSpace: return !analysis.follows_mesh;
+        case MapContent::height: return !map.alpha.empty();  // x or y in gray, beside alpha
+        default: return false;
     }
 }
 

@@ -37,15 +37,12 @@ constexpr const char* kUvMakers = "unwrapping tools can create UVs (Blender's Sm
 /// normals had been computed for the old winding.
 bool asksForNormals(const Finding& finding, bool was_turned) {
     switch (finding.code) {
-        case FindingCode::normalsMissing:
-            return true;
+        case FindingCode::normalsMissing: return true;
         case FindingCode::normalsAgainstWinding:
             return finding.severity == Severity::error || (finding.severity == Severity::warning && was_turned);
         case FindingCode::normalsNotFinite:
-        case FindingCode::normalsNotUnit:
-            return finding.severity == Severity::error;
-        default:
-            return false;
+        case FindingCode::normalsNotUnit: return finding.severity == Severity::error;
+        default: return false;
     }
 }
 

@@ -121,18 +121,12 @@ namespace tspace::report {
 
 const char* imageFormatName(ImageFileFormat format) {
     switch (format) {
-        case ImageFileFormat::png:
-            return "PNG";
-        case ImageFileFormat::jpeg:
-            return "JPEG";
-        case ImageFileFormat::webp:
-            return "WebP";
-        case ImageFileFormat::ktx2:
-            return "KTX2";
-        case ImageFileFormat::dds:
-            return "DDS";
-        case ImageFileFormat::sameAsInput:
-            break;
+        case ImageFileFormat::png: return "PNG";
+        case ImageFileFormat::jpeg: return "JPEG";
+        case ImageFileFormat::webp: return "WebP";
+        case ImageFileFormat::ktx2: return "KTX2";
+        case ImageFileFormat::dds: return "DDS";
+        case ImageFileFormat::sameAsInput: break;
     }
     return "";
 }

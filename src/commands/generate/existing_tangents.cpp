@@ -34,23 +34,16 @@ std::uint8_t partsOf(FindingCode code) {
         case FindingCode::tangentsNotFinite:
         case FindingCode::uvSeamAveraged:
         case FindingCode::directionsWrong:
-        case FindingCode::uvSetWrong:
-            return repair::kWhole;
+        case FindingCode::uvSetWrong: return repair::kWhole;
         case FindingCode::tangentsNotUnit:
-        case FindingCode::signsNotOne:
-            return repair::kValues;
-        case FindingCode::tangentsNotOrthogonal:
-            return repair::kStraighten;
+        case FindingCode::signsNotOne: return repair::kValues;
+        case FindingCode::tangentsNotOrthogonal: return repair::kStraighten;
         case FindingCode::signsWrong:
-        case FindingCode::signsInverted:
-            return repair::kTurnSign;
+        case FindingCode::signsInverted: return repair::kTurnSign;
         case FindingCode::signsMixed:
-        case FindingCode::mirroredSeamAveraged:
-            return repair::kSides;
-        case FindingCode::morphTangentsWrong:
-            return repair::kDeltas;
-        default:
-            return 0;
+        case FindingCode::mirroredSeamAveraged: return repair::kSides;
+        case FindingCode::morphTangentsWrong: return repair::kDeltas;
+        default: return 0;
     }
 }
 

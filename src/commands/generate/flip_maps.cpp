@@ -46,20 +46,16 @@ std::vector<bool> findCancelled(const Scene& scene, ImageFindings& found, const 
 std::string whyUnchanged(GreenSide side, bool is_cancelled, bool is_declared, const Convention& convention) {
     if (is_declared) return "the file declares that green points down, so programs that read it already invert green";
     switch (side) {
-        case GreenSide::up:
-            return "green points up already";
-        case GreenSide::mixed:
-            return "green points down in one part and up in another (see tspace check)";
-        case GreenSide::unread:
-            return "the map could not be examined (see tspace check)";
+        case GreenSide::up: return "green points up already";
+        case GreenSide::mixed: return "green points down in one part and up in another (see tspace check)";
+        case GreenSide::unread: return "the map could not be examined (see tspace check)";
         case GreenSide::down:
             if (convention.green == Green::down) return "green points down, as the requested convention expects";
             if (!is_cancelled) return {};
             return "green points down, but the signs of kept tangents are inverted too, and the two inversions cancel "
                    "out; --overwrite fixes both";
         case GreenSide::noMap:
-        case GreenSide::unknown:
-            break;
+        case GreenSide::unknown: break;
     }
     return "the direction of green cannot be determined";
 }

@@ -34,22 +34,14 @@ void copyReport(const FramesReport& computed, PrimitiveReport& report) {
 
 const char* actionName(PrimitiveAction action) {
     switch (action) {
-        case PrimitiveAction::generated:
-            return "generated";
-        case PrimitiveAction::replaced:
-            return "replaced";
-        case PrimitiveAction::unchanged:
-            return "unchanged";
-        case PrimitiveAction::kept:
-            return "kept";
-        case PrimitiveAction::notNeeded:
-            return "notNeeded";
-        case PrimitiveAction::notTriangles:
-            return "notTriangles";
-        case PrimitiveAction::impossible:
-            return "impossible";
-        case PrimitiveAction::removed:
-            return "removed";
+        case PrimitiveAction::generated: return "generated";
+        case PrimitiveAction::replaced: return "replaced";
+        case PrimitiveAction::unchanged: return "unchanged";
+        case PrimitiveAction::kept: return "kept";
+        case PrimitiveAction::notNeeded: return "notNeeded";
+        case PrimitiveAction::notTriangles: return "notTriangles";
+        case PrimitiveAction::impossible: return "impossible";
+        case PrimitiveAction::removed: return "removed";
     }
     return "unknown";
 }

@@ -12,22 +12,14 @@ namespace {
 
 const char* actionWords(PrimitiveAction action) {
     switch (action) {
-        case PrimitiveAction::generated:
-            return "generated";
-        case PrimitiveAction::replaced:
-            return "replaced";
-        case PrimitiveAction::unchanged:
-            return "same as before";
-        case PrimitiveAction::kept:
-            return "kept";
-        case PrimitiveAction::notNeeded:
-            return "not needed";
-        case PrimitiveAction::notTriangles:
-            return "no triangles";
-        case PrimitiveAction::impossible:
-            return "impossible";
-        case PrimitiveAction::removed:
-            return "removed";
+        case PrimitiveAction::generated: return "generated";
+        case PrimitiveAction::replaced: return "replaced";
+        case PrimitiveAction::unchanged: return "same as before";
+        case PrimitiveAction::kept: return "kept";
+        case PrimitiveAction::notNeeded: return "not needed";
+        case PrimitiveAction::notTriangles: return "no triangles";
+        case PrimitiveAction::impossible: return "impossible";
+        case PrimitiveAction::removed: return "removed";
     }
     return "unknown";
 }

@@ -16,25 +16,18 @@ namespace {
 /// Returns what the image contained, as a clause.
 std::string formerContent(const MapAnalysis& analysis) {
     switch (analysis.content) {
-        case MapContent::twoChannels:
-            return "the map stored only x and y";
-        case MapContent::unsignedZ:
-            return "blue stored z itself, from 0 to 1, instead of (z + 1) / 2";
+        case MapContent::twoChannels: return "the map stored only x and y";
+        case MapContent::unsignedZ: return "blue stored z itself, from 0 to 1, instead of (z + 1) / 2";
         case MapContent::xInAlpha:
             return std::string("the map stored x in ") + channelName(analysis.layout.x.channel) + " and y in " +
                    channelName(analysis.layout.y.channel);
-        case MapContent::exchanged:
-            return "the channels of the map were exchanged or inverted";
-        case MapContent::encoded:
-            return "the map was stored as a color image (sRGB)";
-        case MapContent::objectSpace:
-            return "the map was in object space";
-        case MapContent::normals:
-            return "the map was declared as sRGB, but its values are linear";
+        case MapContent::exchanged: return "the channels of the map were exchanged or inverted";
+        case MapContent::encoded: return "the map was stored as a color image (sRGB)";
+        case MapContent::objectSpace: return "the map was in object space";
+        case MapContent::normals: return "the map was declared as sRGB, but its values are linear";
         case MapContent::height:
         case MapContent::picture:
-        case MapContent::hemiOctahedral:
-            break;
+        case MapContent::hemiOctahedral: break;
     }
     return "";
 }

@@ -102,14 +102,10 @@ PrimitiveIdentity identify(const ScenePrimitive& primitive, const IdentifyOption
 
 const char* signReadingName(SignReading reading) {
     switch (reading) {
-        case SignReading::none:
-            return "none";
-        case SignReading::gltf:
-            return "gltf";
-        case SignReading::inverted:
-            return "inverted";
-        case SignReading::mixed:
-            return "mixed";
+        case SignReading::none: return "none";
+        case SignReading::gltf: return "gltf";
+        case SignReading::inverted: return "inverted";
+        case SignReading::mixed: return "mixed";
     }
     return "none";
 }

@@ -15,14 +15,10 @@ std::string percent(std::uint64_t count, std::uint64_t total) {
 
 const char* signWords(SignReading reading) {
     switch (reading) {
-        case SignReading::gltf:
-            return "as in glTF";
-        case SignReading::inverted:
-            return "inverted";
-        case SignReading::mixed:
-            return "mixed";
-        case SignReading::none:
-            break;
+        case SignReading::gltf: return "as in glTF";
+        case SignReading::inverted: return "inverted";
+        case SignReading::mixed: return "mixed";
+        case SignReading::none: break;
     }
     return "-";
 }

@@ -379,15 +379,12 @@ std::string signSentence(const Identification& result) {
     // The meaning of signs depends on the method, so signs are not described if the method is unknown.
     if (best.nearShare() < kLikelyShare && !keepsOnePerVertex(best) && differentMakers(result).empty()) return "";
     switch (best.signs()) {
-        case SignReading::gltf:
-            return " The signs follow glTF.";
+        case SignReading::gltf: return " The signs follow glTF.";
         case SignReading::inverted:
             return " Every sign is inverted: the method was given raw glTF UVs (v not flipped) and its sign was stored "
                    "unchanged, so the bitangent points the wrong way.";
-        case SignReading::none:
-            return "";
-        case SignReading::mixed:
-            break;
+        case SignReading::none: return "";
+        case SignReading::mixed: break;
     }
     std::size_t right = 0, inverted = 0, mixed = 0;
     for (const PrimitiveIdentity& primitive : result.primitives) {

@@ -71,12 +71,9 @@ std::vector<std::string> readNames(const Json& root, const char* key) {
 std::string indexTypeName(const Document& document, const Primitive& primitive) {
     if (!primitive.indices) return "none";
     switch (readAccessor(document, *primitive.indices).component) {
-        case ComponentType::u8:
-            return "u8";
-        case ComponentType::u16:
-            return "u16";
-        default:
-            return "u32";
+        case ComponentType::u8: return "u8";
+        case ComponentType::u16: return "u16";
+        default: return "u32";
     }
 }
 

@@ -279,12 +279,9 @@ std::string raysPhrase(const RayOptions& rays) {
     const std::string target = std::string(" to the ") + (is_nearest ? "nearest" : "outermost") + " front face";
     if (!rays.skew.texels.empty()) return "rays along the directions of the skew map" + target;
     switch (rays.directions) {
-        case RayDirections::automatic:
-            return "rays along face normals averaged at hard edges" + target;
-        case RayDirections::averaged:
-            return "rays along averaged normals" + target;
-        case RayDirections::normals:
-            break;
+        case RayDirections::automatic: return "rays along face normals averaged at hard edges" + target;
+        case RayDirections::averaged: return "rays along averaged normals" + target;
+        case RayDirections::normals: break;
     }
     return "rays along the stored normals" + target;
 }

@@ -22,29 +22,24 @@ inline ExitCode worse(ExitCode a, ExitCode b) { return std::max(a, b); }
 
 inline ExitCode exitCodeOf(ErrorCode code) {
     switch (code) {
-        case ErrorCode::ok:
-            return ExitCode::done;
-        case ErrorCode::invalidOption:
-            return ExitCode::usage;
+        case ErrorCode::ok: return ExitCode::done;
+        case ErrorCode::invalidOption: return ExitCode::usage;
         case ErrorCode::invalidFile:
         case ErrorCode::unsupportedFile:
         case ErrorCode::forbiddenPath:
         case ErrorCode::indexOutOfRange:
         case ErrorCode::countMismatch:
         case ErrorCode::missingAttribute:
-        case ErrorCode::tooLarge:
-            return ExitCode::badInput;
+        case ErrorCode::tooLarge: return ExitCode::badInput;
         case ErrorCode::cannotRead:
         case ErrorCode::cannotWrite:
-        case ErrorCode::cancelled:
-            return ExitCode::cannotReadOrWrite;
+        case ErrorCode::cancelled: return ExitCode::cannotReadOrWrite;
         case ErrorCode::nullData:
         case ErrorCode::strideTooSmall:
         case ErrorCode::misaligned:
         case ErrorCode::outOfMemory:
         case ErrorCode::planMismatch:
-        case ErrorCode::internal:
-            break;
+        case ErrorCode::internal: break;
     }
     return ExitCode::internal;
 }

@@ -286,9 +286,7 @@ const std::uint32_t* widenIndices(const IndexView& view, std::size_t first, std:
             fill([from = static_cast<const std::uint8_t*>(view.data)](std::size_t c) { return from[c]; });
             break;
 #endif
-        default:
-            fill([](std::size_t c) { return c; });
-            break;
+        default: fill([](std::size_t c) { return c; }); break;
     }
     return buffer;
 }

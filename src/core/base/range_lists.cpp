@@ -222,14 +222,10 @@ class RangeOfRound {
     void addBatch() {
         round_.add(batch_.vertices, batch_.groups, batch_.count, rows_);
         switch (round_.row_count) {
-            case 1:
-                return addRows<1>();
-            case 2:
-                return addRows<2>();
-            case 4:
-                return addRows<4>();
-            default:
-                return round_.ends_in_maxima ? addRows<kMostRows, true>() : addRows<kMostRows - 1>();
+            case 1: return addRows<1>();
+            case 2: return addRows<2>();
+            case 4: return addRows<4>();
+            default: return round_.ends_in_maxima ? addRows<kMostRows, true>() : addRows<kMostRows - 1>();
         }
     }
 

@@ -41,12 +41,9 @@ Result<Triangulation> triangulate(const MeshView& mesh) {
 
 const char* facesName(Faces faces) {
     switch (faces) {
-        case Faces::triangles:
-            return "triangles";
-        case Faces::quads:
-            return "quads";
-        case Faces::automatic:
-            return "auto";
+        case Faces::triangles: return "triangles";
+        case Faces::quads: return "quads";
+        case Faces::automatic: return "auto";
     }
     return "unknown";
 }

@@ -34,24 +34,18 @@ std::uint32_t channelsOf(MapLayer layer) {
         case MapLayer::ao:
         case MapLayer::curvature:
         case MapLayer::height:
-        case MapLayer::thickness:
-            return 1;
-        default:
-            return 3;
+        case MapLayer::thickness: return 1;
+        default: return 3;
     }
 }
 
 /// Returns the background value of a layer, which is used where no triangle is near.
 Vec3 backgroundOf(MapLayer layer) {
     switch (layer) {
-        case MapLayer::ao:
-            return {1, 1, 1};
-        case MapLayer::bent:
-            return {0, 0, 1};
-        case MapLayer::orm:
-            return {1, 1, 0};
-        default:
-            return {0, 0, 0};
+        case MapLayer::ao: return {1, 1, 1};
+        case MapLayer::bent: return {0, 0, 1};
+        case MapLayer::orm: return {1, 1, 0};
+        default: return {0, 0, 0};
     }
 }
 
@@ -404,16 +398,10 @@ void finish(LayerTracing& tracing, BakedLayer& layer) {
                 tracing.layers.curvature_range > 0 ? tracing.layers.curvature_range : percentile99(layer, states),
                 true);
             break;
-        case MapLayer::thickness:
-            completeThickness(tracing, layer, states);
-            break;
-        case MapLayer::position:
-            placeInBox(tracing, layer, states);
-            break;
-        case MapLayer::bent:
-            break;
-        default:
-            clampAll(layer);
+        case MapLayer::thickness: completeThickness(tracing, layer, states); break;
+        case MapLayer::position: placeInBox(tracing, layer, states); break;
+        case MapLayer::bent: break;
+        default: clampAll(layer);
     }
     const bool is_apart = layer.layer == MapLayer::position || layer.layer == MapLayer::id;
     fillMissing(layer.values, layer.channel_count, states, tracing.triangles.shape,

@@ -144,12 +144,9 @@ const std::uint8_t* viewBytes(const Document& document, std::size_t index, std::
 
 std::uint32_t unsignedAt(const std::uint8_t* bytes, ComponentType type) {
     switch (type) {
-        case ComponentType::u8:
-            return bytes[0];
-        case ComponentType::u16:
-            return static_cast<std::uint32_t>(bytes[0] | bytes[1] << 8);
-        default:
-            break;
+        case ComponentType::u8: return bytes[0];
+        case ComponentType::u16: return static_cast<std::uint32_t>(bytes[0] | bytes[1] << 8);
+        default: break;
     }
     return loadLittleEndian<std::uint32_t>(bytes);
 }
@@ -226,22 +223,12 @@ std::uint32_t widen(const ElementView& elements, std::span<std::uint32_t> number
 float componentAt(const std::uint8_t* bytes, ComponentType type, bool normalized) {
     float value = 0;
     switch (type) {
-        case ComponentType::i8:
-            value = static_cast<float>(loadLittleEndian<std::int8_t>(bytes));
-            break;
-        case ComponentType::u8:
-            value = static_cast<float>(bytes[0]);
-            break;
-        case ComponentType::i16:
-            value = static_cast<float>(loadLittleEndian<std::int16_t>(bytes));
-            break;
-        case ComponentType::u16:
-            value = static_cast<float>(loadLittleEndian<std::uint16_t>(bytes));
-            break;
-        case ComponentType::u32:
-            return static_cast<float>(loadLittleEndian<std::uint32_t>(bytes));
-        case ComponentType::f32:
-            return loadLittleEndian<float>(bytes);
+        case ComponentType::i8: value = static_cast<float>(loadLittleEndian<std::int8_t>(bytes)); break;
+        case ComponentType::u8: value = static_cast<float>(bytes[0]); break;
+        case ComponentType::i16: value = static_cast<float>(loadLittleEndian<std::int16_t>(bytes)); break;
+        case ComponentType::u16: value = static_cast<float>(loadLittleEndian<std::uint16_t>(bytes)); break;
+        case ComponentType::u32: return static_cast<float>(loadLittleEndian<std::uint32_t>(bytes));
+        case ComponentType::f32: return loadLittleEndian<float>(bytes);
     }
     return normalized ? std::max(value / propertiesOf(type).largest, -1.0f) : value;
 }

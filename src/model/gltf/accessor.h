@@ -89,18 +89,12 @@ std::vector<std::uint32_t> decodeIndices(const Document& document, const Accesso
 template <class Body>
 void withElementSize(std::size_t bytes, Body&& body) {
     switch (bytes) {
-        case 2:
-            return body(std::integral_constant<std::size_t, 2>{});
-        case 4:
-            return body(std::integral_constant<std::size_t, 4>{});
-        case 8:
-            return body(std::integral_constant<std::size_t, 8>{});
-        case 12:
-            return body(std::integral_constant<std::size_t, 12>{});
-        case 16:
-            return body(std::integral_constant<std::size_t, 16>{});
-        default:
-            return body(bytes);
+        case 2: return body(std::integral_constant<std::size_t, 2>{});
+        case 4: return body(std::integral_constant<std::size_t, 4>{});
+        case 8: return body(std::integral_constant<std::size_t, 8>{});
+        case 12: return body(std::integral_constant<std::size_t, 12>{});
+        case 16: return body(std::integral_constant<std::size_t, 16>{});
+        default: return body(bytes);
     }
 }
 

@@ -40,14 +40,10 @@ bool isFinite(const Bytes& floats) {
 int roundingOf(const DracoAttribute& attribute) {
     if (attribute.component != ComponentType::f32 || !isFinite(attribute.values)) return 0;
     switch (attribute.kind) {
-        case DracoKind::position:
-            return kPositionBits;
-        case DracoKind::normal:
-            return attribute.component_count == 3 ? kNormalBits : 0;
-        case DracoKind::uv:
-            return kUvBits;
-        default:
-            return 0;
+        case DracoKind::position: return kPositionBits;
+        case DracoKind::normal: return attribute.component_count == 3 ? kNormalBits : 0;
+        case DracoKind::uv: return kUvBits;
+        default: return 0;
     }
 }
 

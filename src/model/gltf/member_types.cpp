@@ -122,14 +122,10 @@ const char* jsonTypeName(const Json& value) {
 /// Returns the type of the elements of an array type.
 MemberType elementMemberType(MemberType type) {
     switch (type) {
-        case MemberType::texts:
-            return MemberType::text;
-        case MemberType::integers:
-            return MemberType::integer;
-        case MemberType::numbers:
-            return MemberType::number;
-        default:
-            return MemberType::object;
+        case MemberType::texts: return MemberType::text;
+        case MemberType::integers: return MemberType::integer;
+        case MemberType::numbers: return MemberType::number;
+        default: return MemberType::object;
     }
 }
 
@@ -137,21 +133,15 @@ bool isListType(MemberType type) { return type >= MemberType::texts; }
 
 bool hasMemberType(MemberType type, const Json& value) {
     switch (type) {
-        case MemberType::text:
-            return value.is_string();
-        case MemberType::boolean:
-            return value.is_boolean();
+        case MemberType::text: return value.is_string();
+        case MemberType::boolean: return value.is_boolean();
         case MemberType::integer:
             return value.is_number() &&
                    (!value.is_number_float() || value.get<double>() == std::floor(value.get<double>()));
-        case MemberType::number:
-            return value.is_number() || value.is_null();
-        case MemberType::object:
-            return value.is_object();
-        case MemberType::numbers:
-            return value.is_array() || value.is_null();
-        default:
-            return value.is_array();
+        case MemberType::number: return value.is_number() || value.is_null();
+        case MemberType::object: return value.is_object();
+        case MemberType::numbers: return value.is_array() || value.is_null();
+        default: return value.is_array();
     }
 }
 

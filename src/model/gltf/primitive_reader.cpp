@@ -298,20 +298,13 @@ std::string attributePlace(const Primitive& primitive, const std::string& name) 
 
 const char* modeName(Mode mode) {
     switch (mode) {
-        case Mode::points:
-            return "points";
-        case Mode::lines:
-            return "lines";
-        case Mode::lineLoop:
-            return "line loop";
-        case Mode::lineStrip:
-            return "line strip";
-        case Mode::triangles:
-            return "triangles";
-        case Mode::triangleStrip:
-            return "triangle strip";
-        case Mode::triangleFan:
-            return "triangle fan";
+        case Mode::points: return "points";
+        case Mode::lines: return "lines";
+        case Mode::lineLoop: return "line loop";
+        case Mode::lineStrip: return "line strip";
+        case Mode::triangles: return "triangles";
+        case Mode::triangleStrip: return "triangle strip";
+        case Mode::triangleFan: return "triangle fan";
     }
     return "";
 }

@@ -105,8 +105,7 @@ std::string encodingReason(const Path& path) {
 void checkEnd(const ImportResult& result, const ImportLimits& limits, const Path& path) {
     std::string why;
     switch (result.end) {
-        case ImportEnd::done:
-            return;
+        case ImportEnd::done: return;
         case ImportEnd::outOfProcessorTime:
             why = "the importer was stopped after " + std::to_string(limits.processor_seconds) +
                   " s of CPU time; use --import-seconds to allow more";

@@ -46,14 +46,10 @@ Result<std::span<const std::uint8_t>> NamedFiles::find(const Path& file) const {
 NamedFiles::Kind NamedFiles::kindOf(const Path& file) const {
     if (is_in_memory_) return find(file) ? Kind::file : Kind::missing;
     switch (tspace::kindOf(file)) {
-        case PathKind::nothing:
-            return Kind::missing;
-        case PathKind::file:
-            return Kind::file;
-        case PathKind::folder:
-            return Kind::folder;
-        default:
-            return Kind::other;
+        case PathKind::nothing: return Kind::missing;
+        case PathKind::file: return Kind::file;
+        case PathKind::folder: return Kind::folder;
+        default: return Kind::other;
     }
 }
 
@@ -62,14 +58,10 @@ std::string NamedFiles::whyNotRead(std::string_view uri, const std::string& plac
     const std::optional<Error> failure = tryFile([&] { kind = kindOf(resolve(uri, place)); });
     if (failure) return failure->message;
     switch (kind) {
-        case Kind::file:
-            return "";
-        case Kind::folder:
-            return "it is a folder";
-        case Kind::other:
-            return "it is not a regular file";  // reading a pipe or device could block or never end
-        default:
-            return "it does not exist";
+        case Kind::file: return "";
+        case Kind::folder: return "it is a folder";
+        case Kind::other: return "it is not a regular file";  // reading a pipe or device could block or never end
+        default: return "it does not exist";
     }
 }
 

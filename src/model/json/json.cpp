@@ -255,28 +255,14 @@ class JsonWriter {
 
     void write(const Json& value) {
         switch (value.kind_) {
-            case Json::Kind::null:
-                text_ += "null";
-                break;
-            case Json::Kind::boolean:
-                text_ += value.value_.boolean ? "true" : "false";
-                break;
-            case Json::Kind::integer:
-                text_ += std::to_string(value.value_.integer);
-                break;
-            case Json::Kind::natural:
-                text_ += std::to_string(value.value_.natural);
-                break;
-            case Json::Kind::real:
-                text_ += Library(value.value_.real).dump();
-                break;
-            case Json::Kind::text:
-                writeString(*value.value_.text);
-                break;
+            case Json::Kind::null: text_ += "null"; break;
+            case Json::Kind::boolean: text_ += value.value_.boolean ? "true" : "false"; break;
+            case Json::Kind::integer: text_ += std::to_string(value.value_.integer); break;
+            case Json::Kind::natural: text_ += std::to_string(value.value_.natural); break;
+            case Json::Kind::real: text_ += Library(value.value_.real).dump(); break;
+            case Json::Kind::text: writeString(*value.value_.text); break;
             case Json::Kind::array:
-            case Json::Kind::object:
-                writeChildren(value);
-                break;
+            case Json::Kind::object: writeChildren(value); break;
         }
     }
 

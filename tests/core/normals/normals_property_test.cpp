@@ -87,16 +87,11 @@ class BruteForce {
         if (samePoint(c, previous(c))) return 0;
         const D3 e1 = minus(at(next(c)), at(c)), e2 = minus(at(previous(c)), at(c));
         switch (options_.weighting) {
-            case NormalWeighting::area:
-                return areas_[c / 3];
-            case NormalWeighting::angle:
-                return angleOf(e1, e2);
-            case NormalWeighting::angleArea:
-                return angleOf(e1, e2) * areas_[c / 3];
-            case NormalWeighting::max:
-                return areas_[c / 3] / (dotOf(e1, e1) * dotOf(e2, e2));
-            default:
-                return 1;
+            case NormalWeighting::area: return areas_[c / 3];
+            case NormalWeighting::angle: return angleOf(e1, e2);
+            case NormalWeighting::angleArea: return angleOf(e1, e2) * areas_[c / 3];
+            case NormalWeighting::max: return areas_[c / 3] / (dotOf(e1, e1) * dotOf(e2, e2));
+            default: return 1;
         }
     }
     bool mean(const std::vector<std::size_t>& corners, Vec3& out) const {

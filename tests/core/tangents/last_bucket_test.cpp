@@ -156,15 +156,9 @@ SimpleMesh someShape(std::uint32_t seed) {
     std::mt19937 random(seed);
     SimpleMesh shape;
     switch (seed % 4) {
-        case 0:
-            shape = test::grid(1 + random() % 12);
-            break;
-        case 1:
-            shape = test::fan(1 + random() % 40);
-            break;
-        case 2:
-            shape = test::book(1 + random() % 40, true);
-            break;
+        case 0: shape = test::grid(1 + random() % 12); break;
+        case 1: shape = test::fan(1 + random() % 40); break;
+        case 2: shape = test::book(1 + random() % 40, true); break;
         default: {
             const std::uint32_t vertices = 3 + random() % 12;
             const auto value = [&] { return static_cast<float>(random() % 5); };

@@ -25,12 +25,9 @@ class Dice {
     /// sometimes NaN, infinite, 3e38 or -0.
     float number(int kind) {
         switch (kind) {
-            case 0:
-                return static_cast<float>(below(3) - 1);
-            case 1:
-                return static_cast<float>(below(5)) * 0.5f - 1;
-            case 3:
-                return std::ldexp(fraction() * 2 - 1, below(60) - 30);
+            case 0: return static_cast<float>(below(3) - 1);
+            case 1: return static_cast<float>(below(5)) * 0.5f - 1;
+            case 3: return std::ldexp(fraction() * 2 - 1, below(60) - 30);
             case 4: {
                 constexpr float kInfinity = std::numeric_limits<float>::infinity();
                 constexpr float kStrange[] = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity, 3e38f,
@@ -38,8 +35,7 @@ class Dice {
                 const int pick = below(40);
                 return pick < 5 ? kStrange[pick] : fraction() * 2 - 1;
             }
-            default:
-                return fraction() * 2 - 1;
+            default: return fraction() * 2 - 1;
         }
     }
     /// Returns a normal, with length 1 in three of four cases.

@@ -116,12 +116,9 @@ std::string extensionOf(FarFormat format) {
 
 std::string fileOf(FarFormat format, const std::vector<Part>& parts, const FileStyle& style) {
     switch (format) {
-        case FarFormat::stlText:
-            return stlText(parts, style);
-        case FarFormat::collada:
-            return collada(parts, style);
-        case FarFormat::fbxText:
-            return fbxText(parts, style);
+        case FarFormat::stlText: return stlText(parts, style);
+        case FarFormat::collada: return collada(parts, style);
+        case FarFormat::fbxText: return fbxText(parts, style);
     }
     return {};
 }

@@ -37,20 +37,13 @@ Twin randomTwin(int depth, bool any_bytes) {
     const int kind = depth > 0 && *rc::gen::arbitrary<bool>() ? 7 + *rc::gen::arbitrary<bool>()
                                                               : *rc::gen::element(0, 1, 2, 3, 4, 5, 6);
     switch (kind) {
-        case 0:
-            return {nullptr, nullptr};
-        case 1:
-            return same(*rc::gen::arbitrary<bool>());
-        case 2:
-            return same(*rc::gen::arbitrary<std::int64_t>());
-        case 3:
-            return same(*rc::gen::arbitrary<std::uint64_t>());
-        case 4:
-            return same(*rc::gen::arbitrary<double>());
-        case 5:
-            return same(*rc::gen::arbitrary<float>());
-        case 6:
-            return same(randomText(any_bytes));
+        case 0: return {nullptr, nullptr};
+        case 1: return same(*rc::gen::arbitrary<bool>());
+        case 2: return same(*rc::gen::arbitrary<std::int64_t>());
+        case 3: return same(*rc::gen::arbitrary<std::uint64_t>());
+        case 4: return same(*rc::gen::arbitrary<double>());
+        case 5: return same(*rc::gen::arbitrary<float>());
+        case 6: return same(randomText(any_bytes));
         case 7: {
             Twin twin{Json::array(), Oracle::array()};
             for (int i = *rc::gen::element(0, 1, 2, 3); i > 0; --i) {

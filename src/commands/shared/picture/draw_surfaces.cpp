@@ -251,14 +251,10 @@ Vec3 shadePoint(RenderShow show, const ShownSurface& surface, const Affine& to_w
                 const SurfacePoint& point) {
     switch (show) {
         case RenderShow::lit:
-        case RenderShow::both:
-            return litColor(surface, to_world, lighting, point);
-        case RenderShow::normals:
-            return vectorColor(toFloat(plainNormal(surface, to_world, point)));
-        case RenderShow::mapped:
-            return vectorColor(toFloat(mappedNormal(surface, to_world, point)));
-        case RenderShow::tangents:
-            return tangentColor(surface, to_world, point);
+        case RenderShow::both: return litColor(surface, to_world, lighting, point);
+        case RenderShow::normals: return vectorColor(toFloat(plainNormal(surface, to_world, point)));
+        case RenderShow::mapped: return vectorColor(toFloat(mappedNormal(surface, to_world, point)));
+        case RenderShow::tangents: return tangentColor(surface, to_world, point);
         case RenderShow::sign:
             return shaped(signColor(surface, point), plainNormal(surface, to_world, point), lighting);
         case RenderShow::error: {
@@ -266,8 +262,7 @@ Vec3 shadePoint(RenderShow show, const ShownSurface& surface, const Affine& to_w
             const Vec3 color = std::isfinite(degrees) ? heatColor(static_cast<float>(degrees)) : kNoData;
             return shaped(color, plainNormal(surface, to_world, point), lighting);
         }
-        case RenderShow::uv:
-            return islandColor(surface, point);
+        case RenderShow::uv: return islandColor(surface, point);
     }
     return kNoData;
 }

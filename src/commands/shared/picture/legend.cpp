@@ -67,18 +67,12 @@ const std::array<std::uint8_t, kDotRows>& dotsOf(char c) {
     if (c >= '0' && c <= '9') return kDigits[static_cast<std::size_t>(c - '0')];
     if (c >= 'A' && c <= 'Z') return kLetters[static_cast<std::size_t>(c - 'A')];
     switch (c) {
-        case '+':
-            return kPlus;
-        case '-':
-            return kMinus;
-        case '=':
-            return kEquals;
-        case ',':
-            return kComma;
-        case ':':
-            return kColon;
-        default:
-            return kNoDots;
+        case '+': return kPlus;
+        case '-': return kMinus;
+        case '=': return kEquals;
+        case ',': return kComma;
+        case ':': return kColon;
+        default: return kNoDots;
     }
 }
 
@@ -223,8 +217,7 @@ Legend legendOf(RenderShow show, const TangentSources& sources, Method method) {
                        {kIslandColor, 0.45f * kIslandColor, "MIRRORED"},
                        {{}, {}, "FRAME: 0 TO 1"}};
             break;
-        case RenderShow::both:
-            break;
+        case RenderShow::both: break;
     }
     return legend;
 }

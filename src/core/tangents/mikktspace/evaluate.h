@@ -123,16 +123,11 @@ inline bool requestsOnlyTangents(const TangentOutput& out) {
 inline Weighting weightingOf(Method method) {
     switch (method) {
         case Method::fast:
-        case Method::best:
-            return Weighting::none;
-        case Method::uniform:
-            return Weighting::one;
-        case Method::angle:
-            return Weighting::angle;
-        case Method::area:
-            return Weighting::area;
-        default:
-            return Weighting::projected_angle;
+        case Method::best: return Weighting::none;
+        case Method::uniform: return Weighting::one;
+        case Method::angle: return Weighting::angle;
+        case Method::area: return Weighting::area;
+        default: return Weighting::projected_angle;
     }
 }
 

@@ -102,17 +102,12 @@ PathKind kindOf(const Path& path) {
     std::error_code error;
     switch (fs::status(fs::path(path), error).type()) {
         case fs::file_type::not_found:
-        case fs::file_type::none:
-            return PathKind::nothing;
-        case fs::file_type::regular:
-            return PathKind::file;
-        case fs::file_type::directory:
-            return PathKind::folder;
+        case fs::file_type::none: return PathKind::nothing;
+        case fs::file_type::regular: return PathKind::file;
+        case fs::file_type::directory: return PathKind::folder;
         case fs::file_type::character:
-        case fs::file_type::fifo:
-            return PathKind::stream;
-        default:
-            return PathKind::other;
+        case fs::file_type::fifo: return PathKind::stream;
+        default: return PathKind::other;
     }
 }
 

@@ -136,18 +136,12 @@ bool copyValues(const draco::PointAttribute& values, const draco::PointAttribute
 bool copyAs(const draco::PointAttribute& values, const draco::PointAttribute& mapping, std::size_t point_count,
             DracoAttribute& to) {
     switch (to.component) {
-        case ComponentType::i8:
-            return copyValues<std::int8_t>(values, mapping, point_count, to);
-        case ComponentType::u8:
-            return copyValues<std::uint8_t>(values, mapping, point_count, to);
-        case ComponentType::i16:
-            return copyValues<std::int16_t>(values, mapping, point_count, to);
-        case ComponentType::u16:
-            return copyValues<std::uint16_t>(values, mapping, point_count, to);
-        case ComponentType::u32:
-            return copyValues<std::uint32_t>(values, mapping, point_count, to);
-        case ComponentType::f32:
-            break;
+        case ComponentType::i8: return copyValues<std::int8_t>(values, mapping, point_count, to);
+        case ComponentType::u8: return copyValues<std::uint8_t>(values, mapping, point_count, to);
+        case ComponentType::i16: return copyValues<std::int16_t>(values, mapping, point_count, to);
+        case ComponentType::u16: return copyValues<std::uint16_t>(values, mapping, point_count, to);
+        case ComponentType::u32: return copyValues<std::uint32_t>(values, mapping, point_count, to);
+        case ComponentType::f32: break;
     }
     return copyValues<float>(values, mapping, point_count, to);
 }
@@ -168,34 +162,23 @@ std::string readAttribute(const draco::Mesh& mesh, DracoAttribute& to) {
 
 draco::DataType dataType(ComponentType component) {
     switch (component) {
-        case ComponentType::i8:
-            return draco::DT_INT8;
-        case ComponentType::u8:
-            return draco::DT_UINT8;
-        case ComponentType::i16:
-            return draco::DT_INT16;
-        case ComponentType::u16:
-            return draco::DT_UINT16;
-        case ComponentType::u32:
-            return draco::DT_UINT32;
-        case ComponentType::f32:
-            break;
+        case ComponentType::i8: return draco::DT_INT8;
+        case ComponentType::u8: return draco::DT_UINT8;
+        case ComponentType::i16: return draco::DT_INT16;
+        case ComponentType::u16: return draco::DT_UINT16;
+        case ComponentType::u32: return draco::DT_UINT32;
+        case ComponentType::f32: break;
     }
     return draco::DT_FLOAT32;
 }
 
 draco::GeometryAttribute::Type attributeType(DracoKind kind) {
     switch (kind) {
-        case DracoKind::position:
-            return draco::GeometryAttribute::POSITION;
-        case DracoKind::normal:
-            return draco::GeometryAttribute::NORMAL;
-        case DracoKind::color:
-            return draco::GeometryAttribute::COLOR;
-        case DracoKind::uv:
-            return draco::GeometryAttribute::TEX_COORD;
-        case DracoKind::other:
-            break;
+        case DracoKind::position: return draco::GeometryAttribute::POSITION;
+        case DracoKind::normal: return draco::GeometryAttribute::NORMAL;
+        case DracoKind::color: return draco::GeometryAttribute::COLOR;
+        case DracoKind::uv: return draco::GeometryAttribute::TEX_COORD;
+        case DracoKind::other: break;
     }
     return draco::GeometryAttribute::GENERIC;
 }

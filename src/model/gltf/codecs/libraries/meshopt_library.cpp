@@ -39,17 +39,10 @@ namespace {
 
 void applyFilter(const MeshoptCoding& coding, std::uint8_t* rows) {
     switch (coding.filter) {
-        case MeshoptFilter::none:
-            break;
-        case MeshoptFilter::octahedral:
-            meshopt_decodeFilterOct(rows, coding.count, coding.stride);
-            break;
-        case MeshoptFilter::quaternion:
-            meshopt_decodeFilterQuat(rows, coding.count, coding.stride);
-            break;
-        case MeshoptFilter::exponential:
-            meshopt_decodeFilterExp(rows, coding.count, coding.stride);
-            break;
+        case MeshoptFilter::none: break;
+        case MeshoptFilter::octahedral: meshopt_decodeFilterOct(rows, coding.count, coding.stride); break;
+        case MeshoptFilter::quaternion: meshopt_decodeFilterQuat(rows, coding.count, coding.stride); break;
+        case MeshoptFilter::exponential: meshopt_decodeFilterExp(rows, coding.count, coding.stride); break;
         case MeshoptFilter::color:
 #if MESHOPTIMIZER_VERSION >= 1000
             meshopt_decodeFilterColor(rows, coding.count, coding.stride);
