@@ -38,12 +38,10 @@ class Lab {
   public:
     /// rounds: 0 means the default number
     Lab(bool quick, int rounds, std::string shared_folder, std::string tool)
-        : quick_(quick),
-          rounds_(rounds > 0 ? rounds
-                  : quick    ? 5
-                             : 11),
-          shared_(std::move(shared_folder)),
-          tool_(std::move(tool)) {}
+        : quick_(quick), rounds_(rounds > 0 ? rounds
+                                 : quick    ? 5
+                                            : 11),
+          shared_(std::move(shared_folder)), tool_(std::move(tool)) {}
 
     [[nodiscard]] bool quick() const { return quick_; }
     [[nodiscard]] int rounds() const { return rounds_; }

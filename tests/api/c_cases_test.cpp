@@ -34,10 +34,8 @@ std::vector<T> listOf(const Json& object, const std::string& name) {
 /// The arrays of a test case, and a mesh that refers to them.
 struct CaseMesh {
     explicit CaseMesh(const Json& arrays)
-        : positions(listOf<float>(arrays, "positions")),
-          normals(listOf<float>(arrays, "normals")),
-          uvs(listOf<float>(arrays, "uvs")),
-          indices(listOf<std::uint32_t>(arrays, "indices")),
+        : positions(listOf<float>(arrays, "positions")), normals(listOf<float>(arrays, "normals")),
+          uvs(listOf<float>(arrays, "uvs")), indices(listOf<std::uint32_t>(arrays, "indices")),
           normal_indices(listOf<std::uint32_t>(arrays, "normal_indices")),
           uv_indices(listOf<std::uint32_t>(arrays, "uv_indices")),
           face_sizes(listOf<std::uint32_t>(arrays, "face_sizes")) {

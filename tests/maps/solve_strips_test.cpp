@@ -30,8 +30,7 @@ class Relief {
 
     Relief(unsigned bits, TextureWrap wrap, float shift)
         : options_{.width = kSide, .height = kSide, .bits = bits, .wrap_v = wrap},
-          low_(bench::makeLow(saddle(), bench::Charts::one)),
-          high_(bench::makeHigh(saddle(), 200, true, 4)) {
+          low_(bench::makeLow(saddle(), bench::Charts::one)), high_(bench::makeHigh(saddle(), 200, true, 4)) {
         for (Vec2& uv : low_.uvs) uv.y += shift;
     }
 

@@ -143,12 +143,8 @@ void addSuffixedFiles(const BakePairsArguments& arguments, const std::vector<Pai
 class PairsRun {
   public:
     PairsRun(const BakePairsArguments& arguments, std::vector<Pair> pairs)
-        : arguments_(arguments),
-          pairs_(std::move(pairs)),
-          done_(pairs_.size()),
-          texts_(pairs_.size()),
-          failures_(pairs_.size()),
-          workers_(workerCount(arguments.batch, pairs_.size())) {
+        : arguments_(arguments), pairs_(std::move(pairs)), done_(pairs_.size()), texts_(pairs_.size()),
+          failures_(pairs_.size()), workers_(workerCount(arguments.batch, pairs_.size())) {
         progressLine().setFileCount(pairs_.size());
     }
 

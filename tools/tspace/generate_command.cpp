@@ -92,14 +92,9 @@ ManifestEntry manifestEntry(const Job& job, const report::GenerateOutcome& outco
 class GenerateRun {
   public:
     GenerateRun(const GenerateArguments& arguments, std::vector<Job> jobs)
-        : arguments_(arguments),
-          jobs_(std::move(jobs)),
-          outcomes_(jobs_.size()),
-          texts_(jobs_.size()),
-          failures_(jobs_.size()),
-          workers_(workerCount(arguments.batch, jobs_.size())),
-          report_to_(arguments.jobs.output == "-" ? stderr : stdout),
-          wants_text_(!arguments.json && !arguments.quiet) {
+        : arguments_(arguments), jobs_(std::move(jobs)), outcomes_(jobs_.size()), texts_(jobs_.size()),
+          failures_(jobs_.size()), workers_(workerCount(arguments.batch, jobs_.size())),
+          report_to_(arguments.jobs.output == "-" ? stderr : stdout), wants_text_(!arguments.json && !arguments.quiet) {
         progressLine().setFileCount(jobs_.size());
     }
 

@@ -51,13 +51,13 @@ gltf::Document importDocument(const Path&, const FileOptions&, const Progress&) 
 }
 
 // An arena takes its memory from the module's heap: freed memory is never returned to the system anyway.
-Arena::Arena()
-    : impl_(nullptr),
-      allocator_{.allocate = [](void*, std::size_t bytes, std::size_t alignment) -> void* {
-                     return ::operator new(bytes, std::align_val_t(alignment), std::nothrow);
-                 },
-                 .release = [](void*, void* memory, std::size_t,
-                               std::size_t alignment) { ::operator delete(memory, std::align_val_t(alignment)); }} {}
+Arena::Arena() : impl_(nullptr) {
+    allocator_ = {.allocate = [](void*, std::size_t bytes, std::size_t alignment) -> void* {
+                      return ::operator new(bytes, std::align_val_t(alignment), std::nothrow);
+                  },
+                  .release = [](void*, void* memory, std::size_t,
+                                std::size_t alignment) { ::operator delete(memory, std::align_val_t(alignment)); }};
+}
 Arena::~Arena() = default;
 
 Bytes rewriteMap(const Scene&, ByteSpan, const GenerateOptions&, JudgedMap& map) {

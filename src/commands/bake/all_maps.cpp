@@ -33,9 +33,7 @@ std::uint64_t maxPixels(std::uint64_t memory_limit) {
 }  // namespace
 
 HighDetail::HighDetail(const BakeModels& models, const std::string& path, const BakeFileOptions& options)
-    : high_(models.high),
-      scene_(models.high_scene),
-      layers_(options.layers),
+    : high_(models.high), scene_(models.high_scene), layers_(options.layers),
       textures_(models.high_scene.scene, maxPixels(options.file.memory_limit_bytes)) {
     if (shows(layers_, MapLayer::id)) {
         if (options.ids == BakeIds::shell) {

@@ -107,11 +107,8 @@ double GreenTest::confidence() const {
 }
 
 GreenBlocks::GreenBlocks(const RgbImage& image, const TexelMask& inside)
-    : width_(image.width),
-      height_(image.height),
-      columns_((image.width + kBlock - 1) / kBlock),
-      rows_((image.height + kBlock - 1) / kBlock),
-      blocks_(measured(image, inside, 1)) {
+    : width_(image.width), height_(image.height), columns_((image.width + kBlock - 1) / kBlock),
+      rows_((image.height + kBlock - 1) / kBlock), blocks_(measured(image, inside, 1)) {
     findParts();
     if (all().verdict == GreenVerdict::unknown) means_ = measured(image, inside, 2);
 }

@@ -217,8 +217,7 @@ enum class MapEffect { nothing, open, cancel };
 class Maps {
   public:
     Maps(const ImageFindings& images, const CheckOptions& options)
-        : images_(images),
-          other_way_(options.convention.green == Green::down ? GreenSide::up : GreenSide::down),
+        : images_(images), other_way_(options.convention.green == Green::down ? GreenSide::up : GreenSide::down),
           any_cancels_(std::count(images.image_green.begin(), images.image_green.end(), other_way_) != 0),
           is_requested_(signFactor(options.convention) != signFactor(conventions::gltf)) {}
 
@@ -402,10 +401,8 @@ class Advice {
   public:
     /// Prepares the remedies for a scene. `signs`: verdicts of all primitives.
     Advice(const CheckOptions& options, const std::set<SignVerdict>& signs)
-        : options_(options),
-          inverts_green_(options.convention.green == Green::up),
-          any_cancelled_(signs.contains(SignVerdict::cancelled)),
-          any_open_(signs.contains(SignVerdict::open)) {}
+        : options_(options), inverts_green_(options.convention.green == Green::up),
+          any_cancelled_(signs.contains(SignVerdict::cancelled)), any_open_(signs.contains(SignVerdict::open)) {}
 
     void give(const ScenePrimitive& primitive, const PrimitiveJudgement& judgement, Finding& finding) const {
         const bool can_compute = canCompute(primitive);

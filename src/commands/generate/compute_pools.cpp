@@ -314,10 +314,7 @@ class PoolComputer::Arenas {
 
 PoolComputer::PoolComputer(const Document& document, DecodedArrays& arrays, std::span<const Primitive> primitives,
                            const GenerateOptions& options)
-    : document_(document),
-      arrays_(arrays),
-      primitives_(primitives),
-      options_(options),
+    : document_(document), arrays_(arrays), primitives_(primitives), options_(options),
       arenas_(std::make_unique<Arenas>()) {}
 
 PoolComputer::~PoolComputer() = default;

@@ -48,12 +48,8 @@ class PackedWriter {
   public:
     PackedWriter(Editor& editor, const Document& document, const GenerateOptions& options,
                  std::span<PrimitiveReport> reports)
-        : editor_(editor),
-          document_(document),
-          options_(options),
-          layout_(packedLayout(*options.storage.pack)),
-          reports_(reports),
-          primitives_(readPrimitives(document)) {}
+        : editor_(editor), document_(document), options_(options), layout_(packedLayout(*options.storage.pack)),
+          reports_(reports), primitives_(readPrimitives(document)) {}
 
     void run() {
         for (const std::vector<std::size_t>& group : groups()) write(group);

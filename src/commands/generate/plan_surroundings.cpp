@@ -35,9 +35,7 @@ struct NearVertex {
 class MeshPieces {
   public:
     MeshPieces(Model& model, std::vector<std::size_t> numbers, float weld_distance)
-        : document_(model.document()),
-          arrays_(model.arrays()),
-          primitives_(model.primitives()),
+        : document_(model.document()), arrays_(model.arrays()), primitives_(model.primitives()),
           numbers_(std::move(numbers)) {
         std::map<std::size_t, std::size_t> list_of;  // POSITION -> index of its vertex list
         for (const std::size_t number : numbers_) {

@@ -99,10 +99,7 @@ void compare(const ScenePrimitive& primitive, std::span<const std::uint8_t> vote
 class Explainer {
   public:
     Explainer(const ScenePrimitive& primitive, const UvReading& reading, const IdentifyOptions& options)
-        : primitive_(primitive),
-          reading_(reading),
-          options_(options),
-          mesh_(primitive.view(reading.uvs)),
+        : primitive_(primitive), reading_(reading), options_(options), mesh_(primitive.view(reading.uvs)),
           votes_(uvVotes(mesh_)) {}
 
     /// Returns whether any triangle has UV area.

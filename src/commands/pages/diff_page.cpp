@@ -34,9 +34,7 @@ OtherFrames framesAtCorners(const ScenePrimitive& a, const ScenePrimitive& b, co
 }  // namespace
 
 DiffPictures::DiffPictures(const std::string& a, const std::string& b, const DiffOptions& options)
-    : a_(a, options.file),
-      b_(b, options.file_b.value_or(options.file)),
-      pairs_(pairPrimitives(a_.scene(), b_.scene())),
+    : a_(a, options.file), b_(b, options.file_b.value_or(options.file)), pairs_(pairPrimitives(a_.scene(), b_.scene())),
       others_(framesOfB()) {}
 
 std::vector<OtherFrames> DiffPictures::framesOfB() const {

@@ -199,13 +199,13 @@ class Arena::Impl {
     std::vector<Block> blocks_;  ///< consecutive blocks up to the last one in use; free blocks are never adjacent
 };
 
-Arena::Arena()
-    : impl_(new Impl),
-      allocator_{.allocate = [](void* user, std::size_t bytes,
-                                std::size_t) { return static_cast<Impl*>(user)->allocate(bytes); },
-                 .release = [](void* user, void* memory, std::size_t bytes,
-                               std::size_t) { static_cast<Impl*>(user)->release(memory, bytes); },
-                 .user = impl_} {}
+Arena::Arena() : impl_(new Impl) {
+    allocator_ = {.allocate = [](void* user, std::size_t bytes,
+                                 std::size_t) { return static_cast<Impl*>(user)->allocate(bytes); },
+                  .release = [](void* user, void* memory, std::size_t bytes,
+                                std::size_t) { static_cast<Impl*>(user)->release(memory, bytes); },
+                  .user = impl_};
+}
 
 Arena::~Arena() { delete impl_; }
 

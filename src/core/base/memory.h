@@ -99,8 +99,7 @@ class Buffer {
         for (std::size_t i = 0; i < count; ++i) data_[i] = value;
     }
     Buffer(Buffer&& other) noexcept
-        : allocator_(other.allocator_),
-          data_(std::exchange(other.data_, nullptr)),
+        : allocator_(other.allocator_), data_(std::exchange(other.data_, nullptr)),
           count_(std::exchange(other.count_, 0)) {}
     Buffer& operator=(Buffer&& other) noexcept {
         std::swap(allocator_, other.allocator_);

@@ -46,9 +46,7 @@ class PositionCells {
   public:
     PositionCells(const StridedSpan<const Vec3>& positions, double distance, std::size_t most,
                   const Allocator* allocator)
-        : positions_(positions),
-          distance_(distance),
-          width_(kCellWidth * distance),
+        : positions_(positions), distance_(distance), width_(kCellWidth * distance),
           slots_(allocator, std::bit_ceil(2 * most + 2)) {
         std::fill(slots_.begin(), slots_.end(), Slot{0, kNoVertexNear});
     }

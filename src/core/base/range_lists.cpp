@@ -22,9 +22,7 @@ constexpr std::uint32_t kNoRange = 0xffffffffu, kSeveral = 0xfffffffeu;
 class Walk {
   public:
     Walk(const TriangleGroups& triangles, std::size_t block_size, std::size_t group_count, std::size_t range_size)
-        : triangles_(triangles),
-          block_size_(block_size),
-          shift_(std::countr_zero(range_size)),
+        : triangles_(triangles), block_size_(block_size), shift_(std::countr_zero(range_size)),
           range_count_(static_cast<std::uint32_t>((group_count + range_size - 1) >> shift_)) {}
 
     void read(std::size_t block) {
@@ -262,8 +260,7 @@ class RangeOfRound {
 
 SumRounds::SumRounds(const TriangleGroups& triangles, std::size_t adding_corners, std::size_t group_count,
                      std::size_t most_rows, const Allocator* allocator, Parallel& parallel)
-    : triangles_(triangles),
-      corner_step_(adding_corners == 1 ? 3 : 1),
+    : triangles_(triangles), corner_step_(adding_corners == 1 ? 3 : 1),
       lists_(triangles, SumRound::kTriangles, group_count, std::bit_floor(kRangeBytes / (most_rows * sizeof(float[4]))),
              allocator, parallel),
       tasks_(parallel.width() == 1 ? 1 : std::min(lists_.count(), kTasksPerThread * parallel.width())),

@@ -89,9 +89,7 @@ class RangeLists {
     /// `block_size`, at most TriangleBatch::kMost. Creates no lists: each range visits all triangles, which suits a
     /// single range, or a few ranges for triangles in random order.
     RangeLists(std::size_t block_size, std::size_t group_count, std::size_t range_size)
-        : block_size_(block_size),
-          group_count_(group_count),
-          range_size_(range_size),
+        : block_size_(block_size), group_count_(group_count), range_size_(range_size),
           count_((group_count + range_size - 1) / range_size) {}
 
     /// Lists the triangles of each range, if there are several. Uses 4 bytes per triangle at the border of two ranges,

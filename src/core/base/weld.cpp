@@ -37,8 +37,7 @@ class RepeatedHashes {
 
     RepeatedHashes(const Allocator* allocator, std::size_t vertex_count, std::size_t ranges)
         : log2_(static_cast<unsigned>(std::clamp<std::size_t>(std::bit_width(kPlacesPerVertex * vertex_count), 6, 32))),
-          words_((std::size_t{1} << log2_) / kPlacesPerWord),
-          ranges_(ranges),
+          words_((std::size_t{1} << log2_) / kPlacesPerWord), ranges_(ranges),
           table_(allocator, words_ * ranges, std::uint64_t{0}) {}
 
     void add(std::size_t range, const std::uint32_t* hashes, std::size_t count) {
@@ -115,11 +114,7 @@ class Welder {
   public:
     Welder(Weldable& vertices, std::size_t count, const Allocator* allocator, const Allocator* transient,
            Parallel& parallel)
-        : vertices_(vertices),
-          count_(count),
-          allocator_(allocator),
-          transient_(transient),
-          parallel_(parallel),
+        : vertices_(vertices), count_(count), allocator_(allocator), transient_(transient), parallel_(parallel),
           hashes_(transient, count) {}
 
     Buffer<std::uint32_t> run(bool is_indexed) {

@@ -47,11 +47,8 @@ namespace {
 /// Struct of the C API (the first base class), followed by the memory that its pointers refer to.
 struct OwnedFrames : tspace_IndexedFrames {
     explicit OwnedFrames(IndexedFrames&& made)
-        : tspace_IndexedFrames(),
-          frames(std::move(made)),
-          own_normal_report(toReport(frames.report.normals)),
-          own_tangent_report(toReport(frames.report.tangents)),
-          own_sanitize_report(toReport(frames.report.sanitize)) {
+        : tspace_IndexedFrames(), frames(std::move(made)), own_normal_report(toReport(frames.report.normals)),
+          own_tangent_report(toReport(frames.report.tangents)), own_sanitize_report(toReport(frames.report.sanitize)) {
         indices = frames.indices.data();
         corner_count = frames.indices.size();
         source_vertices = frames.source_vertices.data();

@@ -35,8 +35,7 @@ class SomePoints {
     /// `room`: capacity, limited to kMostPoints.
     SomePoints(const Allocator* allocator, std::size_t room)
         : points_(allocator, std::min(room, kMostPoints)),
-          slots_(allocator, std::bit_ceil(2 * points_.size() + 1), kNone),
-          filter_(allocator, kFilterWords, 0u) {}
+          slots_(allocator, std::bit_ceil(2 * points_.size() + 1), kNone), filter_(allocator, kFilterWords, 0u) {}
 
     void clear() {
         count_ = 0;
@@ -87,12 +86,8 @@ class SomePoints {
 class NoiseScreen {
   public:
     NoiseScreen(const MeshView& mesh, const Execution& execution, Parallel& parallel)
-        : mesh_(mesh),
-          execution_(execution),
-          parallel_(parallel),
-          points_(execution.allocator, mesh.positions.count),
-          edges_(execution.allocator, kEdges),
-          point_of_(execution.allocator, mesh.positions.count) {}
+        : mesh_(mesh), execution_(execution), parallel_(parallel), points_(execution.allocator, mesh.positions.count),
+          edges_(execution.allocator, kEdges), point_of_(execution.allocator, mesh.positions.count) {}
 
     bool mayHave(double noise) {
         sampleEdges();

@@ -23,12 +23,8 @@ CornerGroups::CornerGroups(const NormalsCall& call, Buffer<std::uint32_t> compon
 }
 
 NormalGroups::NormalGroups(const NormalsCall& call, const CornerGroups& corner_groups, double length)
-    : call_(call),
-      count_(corner_groups.count()),
-      positions_(call.allocator, 4 * count_, 0.0f),
-      normals_(call.allocator, 4 * count_),
-      variances_(call.allocator, count_),
-      begins_(call.allocator, count_ + 2, 0u),
+    : call_(call), count_(corner_groups.count()), positions_(call.allocator, 4 * count_, 0.0f),
+      normals_(call.allocator, 4 * count_), variances_(call.allocator, count_), begins_(call.allocator, count_ + 2, 0u),
       counts_(call.allocator, count_) {
     sortCorners(corner_groups, length);
     marks_ = Buffer<std::uint32_t>(call.allocator, count_ * call.parallel.width());

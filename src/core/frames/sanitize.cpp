@@ -139,10 +139,7 @@ class Sanitizer {
   public:
     Sanitizer(const MeshView& mesh, const SanitizeOptions& options, StridedSpan<Vec4> tangents,
               const Execution& execution)
-        : mesh_(mesh),
-          tangents_(tangents),
-          options_(options),
-          allocator_(execution.allocator),
+        : mesh_(mesh), tangents_(tangents), options_(options), allocator_(execution.allocator),
           parallel_(execution, mesh.cornerCount()) {
         cutIntoBlocks();
     }

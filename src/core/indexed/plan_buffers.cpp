@@ -236,10 +236,7 @@ TangentSources indexedSources(const IndexedPlan& plan, SimdTarget simd) {
 class BufferWriter {
   public:
     BufferWriter(const TangentPlan& plan, const PlanParts& parts, const PlanBufferOptions& options, SimdTarget simd)
-        : plan_(plan),
-          options_(options),
-          is_lengyel_(parts.indexed != nullptr),
-          normalizes_(parts.normalizes_normals),
+        : plan_(plan), options_(options), is_lengyel_(parts.indexed != nullptr), normalizes_(parts.normalizes_normals),
           convention_(parts.grouped != nullptr ? parts.grouped->convention : options.normals.convention),
           in_(is_lengyel_ ? indexedSources(*parts.indexed, simd) : GroupedSources(*parts.grouped).read()),
           fold_(is_lengyel_ ? 1.0f : signFactor(convention_) * normalFactor(convention_)) {}

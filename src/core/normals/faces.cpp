@@ -32,13 +32,10 @@ MeshFaces::MeshFaces(const MeshView& mesh, const Allocator* allocator) {
 
 PointItems::PointItems(const MeshView& mesh, const MeshFaces& faces, const Buffer<std::uint32_t>& points,
                        const Allocator* allocator)
-    : TriangleGroups(areTriangles(mesh) ? mesh.faceCount() : mesh.cornerCount()),
-      mesh_(mesh),
-      faces_(faces),
-      points_(points),
-      in_place_(areTriangles(mesh) && mesh.indices.type == IndexType::u32
-                    ? static_cast<const std::uint32_t*>(mesh.indices.data)
-                    : nullptr) {
+    : TriangleGroups(areTriangles(mesh) ? mesh.faceCount() : mesh.cornerCount()), mesh_(mesh), faces_(faces),
+      points_(points), in_place_(areTriangles(mesh) && mesh.indices.type == IndexType::u32
+                                     ? static_cast<const std::uint32_t*>(mesh.indices.data)
+                                     : nullptr) {
     if (in_place_ != nullptr && !points.empty())
         blocks_ = Buffer<std::uint8_t>(allocator, count / TriangleBatch::kMost + 1, unknown);
 }

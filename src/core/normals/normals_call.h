@@ -112,20 +112,12 @@ FaceRow faceRow(const MeshView& mesh, std::uint32_t first, std::uint32_t past, d
 struct NormalsCall {
     NormalsCall(const MeshView& m, const MeshView& p, const Call<NormalOptions>& o, StridedSpan<Vec3> to,
                 Parallel& threads)
-        : mesh(m),
-          posed(p),
-          options(o),
-          out(to),
-          allocator(o.execution.allocator),
-          parallel(threads),
+        : mesh(m), posed(p), options(o), out(to), allocator(o.execution.allocator), parallel(threads),
           faces(m, allocator),
           points(o.weld_positions ? weldPositions(m, allocator, parallel) : Buffer<std::uint32_t>()),
-          items(m, faces, points, allocator),
-          kernel(smooth::faceKernelFor(o.execution.simd)),
-          factor(normalFactor(o.convention)),
-          are_triangles(PointItems::areTriangles(m)),
-          is_best(o.weighting == NormalWeighting::best),
-          weighting(is_best ? NormalWeighting::angleArea : o.weighting),
+          items(m, faces, points, allocator), kernel(smooth::faceKernelFor(o.execution.simd)),
+          factor(normalFactor(o.convention)), are_triangles(PointItems::areTriangles(m)),
+          is_best(o.weighting == NormalWeighting::best), weighting(is_best ? NormalWeighting::angleArea : o.weighting),
           by_area(weighting == NormalWeighting::area || weighting == NormalWeighting::angleArea),
           by_angle(weighting == NormalWeighting::angle || weighting == NormalWeighting::angleArea) {}
 

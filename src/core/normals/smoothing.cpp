@@ -77,14 +77,8 @@ class PointComponents {
   public:
     PointComponents(const SmoothingRule& rule, const FaceRow* rows, const PointCorners& at, Link* links,
                     std::uint32_t* parents)
-        : rule_(rule),
-          faces_(rule.call.faces),
-          rows_(rows),
-          at_(at),
-          count_(at.count),
-          components_(at.count),
-          links_(links),
-          parents_(parents) {}
+        : rule_(rule), faces_(rule.call.faces), rows_(rows), at_(at), count_(at.count), components_(at.count),
+          links_(links), parents_(parents) {}
 
     const Link* find() {
         for (std::uint32_t slot = 0; slot < count_; ++slot) parents_[slot] = slot;
@@ -254,10 +248,8 @@ class PointComponents {
 }  // namespace
 
 SmoothingRule::SmoothingRule(const NormalsCall& c)
-    : call(c),
-      crease_rad(double{c.options.crease_angle_deg} * (kPi / 180) + kCreaseSlackRad),
-      crease_cosine(sineCosine(crease_rad < kPi ? crease_rad : kPi).cosine),
-      groups(c.options.smoothing_groups),
+    : call(c), crease_rad(double{c.options.crease_angle_deg} * (kPi / 180) + kCreaseSlackRad),
+      crease_cosine(sineCosine(crease_rad < kPi ? crease_rad : kPi).cosine), groups(c.options.smoothing_groups),
       groups_are_masks(c.options.smoothing_groups_are_masks) {}
 
 const Link* findComponents(const SmoothingRule& rule, const FaceRow* rows, const PointCorners& at, Link* links,

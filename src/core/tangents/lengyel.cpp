@@ -87,11 +87,7 @@ class FaceSums {
     /// ranges.
     FaceSums(const IndexedPlan& plan, StridedSpan<const Vec3> positions, const derivatives::DerivativeKernel& kernel,
              VertexSums sums, float* visits, unsigned wanted, const Allocator* allocator, Parallel& parallel)
-        : plan_(plan),
-          positions_(positions),
-          kernel_(kernel),
-          sums_(sums),
-          visits_(visits),
+        : plan_(plan), positions_(positions), kernel_(kernel), sums_(sums), visits_(visits),
           triangles_(plan.triangle_vertices),
           ranges_(makeRanges(std::bit_ceil((plan.vertex_count + wanted - 1) / wanted), allocator, parallel)) {}
 

@@ -202,12 +202,12 @@ struct CornerArrays {
     CornerArrays(const MeshView& mesh, const Allocator* allocator)
         : positions(gathered(mesh.positions, mesh.indices, mesh, allocator)),
           normals(gathered(mesh.normals, mesh.normal_indices, mesh, allocator)),
-          uvs(gathered(mesh.uvs, mesh.uv_indices, mesh, allocator)),
-          view{.positions = {positions.data(), positions.size()},
-               .normals = {normals.data(), normals.size()},
-               .uvs = {uvs.data(), uvs.size()},
-               .face_sizes = mesh.face_sizes,
-               .face_size = mesh.face_size} {}
+          uvs(gathered(mesh.uvs, mesh.uv_indices, mesh, allocator)), view{.positions = {positions.data(),
+                                                                                        positions.size()},
+                                                                          .normals = {normals.data(), normals.size()},
+                                                                          .uvs = {uvs.data(), uvs.size()},
+                                                                          .face_sizes = mesh.face_sizes,
+                                                                          .face_size = mesh.face_size} {}
 
     template <class T>
     static Buffer<T> gathered(const StridedSpan<const T>& values, const IndexView& list, const MeshView& mesh,

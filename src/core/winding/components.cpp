@@ -26,8 +26,7 @@ class Pairing {
   public:
     Pairing(const Surface& surface, const Allocator* allocator)
         : surface_(surface),
-          allocator_(allocator),
-          pairs_{Buffer<std::uint32_t>(allocator, surface.mesh.cornerCount(), kNoPartner), {}} {}
+          allocator_(allocator), pairs_{Buffer<std::uint32_t>(allocator, surface.mesh.cornerCount(), kNoPartner), {}} {}
 
     EdgePairs run() {
         forEachEdge(
@@ -300,15 +299,8 @@ class Flood {
     /// followed last.
     Flood(const WindingCall& call, std::uint32_t begin, Buffer<std::uint32_t>& order, Buffer<std::uint8_t>& reached,
           const Buffer<std::uint8_t>& at_border)
-        : call_(call),
-          faces_(call.surface.faces),
-          order_(order),
-          reached_(reached),
-          at_border_(at_border),
-          end_(begin),
-          late_(begin),
-          even_(begin),
-          odd_(begin) {}
+        : call_(call), faces_(call.surface.faces), order_(order), reached_(reached), at_border_(at_border), end_(begin),
+          late_(begin), even_(begin), odd_(begin) {}
 
     Component run(std::uint32_t first) {
         Component component{.begin = end_};

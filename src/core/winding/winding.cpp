@@ -20,9 +20,7 @@ constexpr std::size_t kLeaf = 8;  // maximum number of boxes in a leaf
 }  // namespace
 
 BoxTree::BoxTree(const Buffer<Box>& boxes, std::size_t count, const Allocator* allocator)
-    : boxes_(boxes),
-      count_(count),
-      order_(allocator, count),
+    : boxes_(boxes), count_(count), order_(allocator, count),
       nodes_(allocator, 2 * std::bit_ceil(std::max<std::size_t>(1, (count + kLeaf - 1) / kLeaf)), Box{}) {
     for (std::size_t i = 0; i < count; ++i) order_[i] = static_cast<std::uint32_t>(i);
     for (std::size_t node = 1; node < nodes_.size(); ++node) {
@@ -188,9 +186,7 @@ constexpr std::uint32_t kFewest = 4;
 class WindingRepair {
   public:
     WindingRepair(const winding::WindingCall& call, WindingReport& report)
-        : call_(call),
-          report_(report),
-          memory_(call.allocator(), call.surface.mesh.faceCount()),
+        : call_(call), report_(report), memory_(call.allocator(), call.surface.mesh.faceCount()),
           closed_(call.allocator(), call.surface.mesh.faceCount() / kFewest + 1) {}
 
     void run() {

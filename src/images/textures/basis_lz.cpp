@@ -201,12 +201,7 @@ struct BasisTables {
 class BasisSlice {
   public:
     BasisSlice(const BasisTables& tables, ByteSpan data, std::size_t across, std::size_t down)
-        : tables_(tables),
-          bits_(data),
-          history_(tables.history),
-          across_(across),
-          down_(down),
-          above_(across),
+        : tables_(tables), bits_(data), history_(tables.history), across_(across), down_(down), above_(across),
           predictions_((across + 1) / 2) {}
 
     /// Writes eight bytes per block: endpoint and selectors. `stride`: distance between blocks. Returns false for

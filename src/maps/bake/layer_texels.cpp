@@ -11,10 +11,7 @@ class MissingTexels {
   public:
     MissingTexels(std::span<float> values, std::uint32_t channel_count, std::span<const TexelState> states,
                   const TextureShape& shape, Filling filling)
-        : values_(values),
-          channel_count_(channel_count),
-          states_(states.begin(), states.end()),
-          shape_(shape),
+        : values_(values), channel_count_(channel_count), states_(states.begin(), states.end()), shape_(shape),
           filling_(filling) {}
 
     void fill() {

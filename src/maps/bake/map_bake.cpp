@@ -31,14 +31,8 @@ class Baking {
     /// high poly. With null, a map without any hit is an error; otherwise such a map stays empty.
     Baking(const LowPoly& low, const HighPoly& high, const BakeOptions& options, const LayerOptions& layers,
            const Execution& execution, const Progress& progress, SharedRays* shared)
-        : low_(low),
-          high_(high),
-          options_(options),
-          layers_(layers),
-          shared_(shared),
-          allocator_(execution.allocator),
-          parallel_(execution),
-          work_{execution.allocator, parallel_, progress} {}
+        : low_(low), high_(high), options_(options), layers_(layers), shared_(shared), allocator_(execution.allocator),
+          parallel_(execution), work_{execution.allocator, parallel_, progress} {}
 
     Result<BakedMaps> run() {
         Result<MapSurfaces> surfaces = MapSurfaces::make(low_, high_, options_.reach, options_.rays, parallel_,

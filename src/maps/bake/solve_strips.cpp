@@ -40,14 +40,9 @@ class Solving {
   public:
     Solving(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint32_t points, const BakeOptions& options,
             const MapWork& work, TracedTexels& traced)
-        : surfaces_(surfaces),
-          plan_(plan),
-          options_(options),
-          work_(work),
-          traced_(traced),
-          uvs_(surfaces.low(), work.allocator),
-          bands_(uvs_.triangles(options.wrap_u, options.wrap_v), options.width, options.height, points, points / 2,
-                 work.allocator),
+        : surfaces_(surfaces), plan_(plan), options_(options), work_(work), traced_(traced),
+          uvs_(surfaces.low(), work.allocator), bands_(uvs_.triangles(options.wrap_u, options.wrap_v), options.width,
+                                                       options.height, points, points / 2, work.allocator),
           points_{bands_, points},
           texels_(sharpenedTexels(plan, {traced.wanted.data(), traced.wanted.size()}, work.parallel, work.allocator)) {}
 

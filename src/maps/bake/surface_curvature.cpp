@@ -20,10 +20,8 @@ class Curvature {
     Curvature(const HighPoly& mesh, float weld_distance, Parallel& parallel, const Allocator* allocator)
         : mesh_(mesh),
           near_({.positions = mesh.positions, .indices = {mesh.corners}}, weld_distance, allocator, parallel),
-          roots_(weldPositions(near_.view(), allocator, parallel)),
-          normals_(allocator, mesh.positions.count, DVec3{}),
-          bends_(allocator, mesh.positions.count, 0.0),
-          areas_(allocator, mesh.positions.count, 0.0),
+          roots_(weldPositions(near_.view(), allocator, parallel)), normals_(allocator, mesh.positions.count, DVec3{}),
+          bends_(allocator, mesh.positions.count, 0.0), areas_(allocator, mesh.positions.count, 0.0),
           result_(allocator, mesh.positions.count, 0.0F) {}
 
     Buffer<float> run() {

@@ -14,13 +14,8 @@ class Planning {
   public:
     Planning(const TracedTexels& traced, const TexelTriangles& triangles, float tolerance, Parallel& parallel,
              const Allocator* allocator)
-        : traced_(traced),
-          triangles_(triangles),
-          width_(triangles.shape.width),
-          height_(triangles.shape.height),
-          tolerance_(tolerance),
-          parallel_(parallel),
-          allocator_(allocator) {}
+        : traced_(traced), triangles_(triangles), width_(triangles.shape.width), height_(triangles.shape.height),
+          tolerance_(tolerance), parallel_(parallel), allocator_(allocator) {}
 
     TexelPlan run(bool all_unknown) {
         const std::size_t count = std::size_t{width_} * height_;

@@ -72,11 +72,7 @@ class Tracing {
   public:
     Tracing(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
             const MapWork& work, TracedTexels& traced)
-        : surfaces_(surfaces),
-          triangles_(triangles),
-          options_(options),
-          work_(work),
-          traced_(traced),
+        : surfaces_(surfaces), triangles_(triangles), options_(options), work_(work), traced_(traced),
           uvs_(surfaces.low(), work.allocator) {}
 
     void run() {

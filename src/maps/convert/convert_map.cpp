@@ -150,18 +150,11 @@ class Conversion {
   public:
     Conversion(const MapImage& map, const MapSide& from, const MapSide& to, std::span<Vec3> out,
                const ConvertMapOptions& options, const Allocator* allocator, Parallel& parallel)
-        : map_(map),
-          from_(from),
-          to_(to),
-          out_(out),
-          options_(options),
-          allocator_(allocator),
-          parallel_(parallel),
+        : map_(map), from_(from), to_(to), out_(out), options_(options), allocator_(allocator), parallel_(parallel),
           // If only one side has frames, they are used for both sides.
           one_mesh_(!(hasFrames(from) && hasFrames(to))),
           main_(from.uvs.empty() || (to.space == MapSpace::tangent && from.space == MapSpace::object) ? to : from),
-          other_(&main_ == &from ? to : from),
-          main_corners_(main_, allocator),
+          other_(&main_ == &from ? to : from), main_corners_(main_, allocator),
           other_corners_(one_mesh_ ? MapSide{} : other_, allocator) {}
 
     Result<ConvertMapReport> run(const Progress& progress) {

@@ -54,12 +54,7 @@ class Heights {
   public:
     Heights(const HeightMap& map, const MapSide& mesh, std::span<Vec3> out, const HeightToNormalOptions& options,
             const Allocator* allocator, Parallel& parallel)
-        : map_(map),
-          mesh_(mesh),
-          out_(out),
-          options_(options),
-          allocator_(allocator),
-          parallel_(parallel),
+        : map_(map), mesh_(mesh), out_(out), options_(options), allocator_(allocator), parallel_(parallel),
           corners_(mesh, allocator) {}
 
     Result<HeightToNormalReport> run() {

@@ -52,12 +52,10 @@ class SampleBands {
 
     SampleBands(const UvTriangles& triangles, std::uint32_t width, std::uint32_t height, std::uint32_t n,
                 std::uint32_t shift, const Allocator* allocator)
-        : triangles_(triangles),
-          shape_{width, height, triangles.wrap_u, triangles.wrap_v},
-          grid_{width * n, height * n, triangles.wrap_u, triangles.wrap_v},
-          n_(n),
-          shift_(shift),
-          begin_(allocator, bandCount() + 1, std::size_t{0}),
+        : triangles_(triangles), shape_{width, height, triangles.wrap_u, triangles.wrap_v}, grid_{width * n, height * n,
+                                                                                                  triangles.wrap_u,
+                                                                                                  triangles.wrap_v},
+          n_(n), shift_(shift), begin_(allocator, bandCount() + 1, std::size_t{0}),
           marks_(allocator, bandCount(), std::size_t{0}) {
         const std::size_t count = triangles.corners.size() / 3;
         for (std::size_t i = 0; i < count; ++i) {

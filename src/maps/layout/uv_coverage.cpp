@@ -42,12 +42,8 @@ void TexelRect::include(const TexelRect& other) {
 }
 
 TexelMask::TexelMask(std::uint32_t width, std::uint32_t height)
-    : width_(width),
-      height_(height),
-      row_words_((std::size_t{width} + 63) / 64),
-      first_row_(height),
-      words_(row_words_ * height),
-      is_whole_(height) {}
+    : width_(width), height_(height), row_words_((std::size_t{width} + 63) / 64), first_row_(height),
+      words_(row_words_ * height), is_whole_(height) {}
 
 void TexelMask::fill(std::uint32_t y, std::uint32_t begin, std::uint32_t end) {
     if (begin >= end || is_whole_[y]) return;
@@ -113,9 +109,7 @@ constexpr std::size_t kMostRemembered = std::size_t{1} << 16;
 class Coverage {
   public:
     Coverage(const UvTriangles& triangles, TexelMask& mask, std::uint64_t& steps)
-        : triangles_(triangles),
-          shape_{mask.width(), mask.height(), triangles.wrap_u, triangles.wrap_v},
-          mask_(mask),
+        : triangles_(triangles), shape_{mask.width(), mask.height(), triangles.wrap_u, triangles.wrap_v}, mask_(mask),
           steps_(steps) {}
 
     bool run() {

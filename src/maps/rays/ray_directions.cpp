@@ -172,8 +172,7 @@ DVec3 unitOr(DVec3 v, const DVec3& other) { return normalize(v) ? v : other; }
 /// Whole mesh: the triangles that the map covers, followed by the others. Close positions are welded.
 struct WholeMesh {
     WholeMesh(const LowPoly& low, float weld_distance, const Allocator* allocator, Parallel& parallel)
-        : positions(allocator, low.positions.count + low.rest_positions.count),
-          normals(allocator, positions.size()),
+        : positions(allocator, low.positions.count + low.rest_positions.count), normals(allocator, positions.size()),
           faces(allocator, positions.size() / 3) {
         const std::size_t shown = low.positions.count;
         for (std::size_t i = 0; i < positions.size(); ++i) {

@@ -18,12 +18,8 @@ constexpr unsigned kRounds = 3;
 class Band {
   public:
     Band(const VectorMap& map, std::uint32_t first, std::uint32_t rows, const Allocator* allocator)
-        : map_(map),
-          height_(static_cast<std::uint32_t>(map.vectors.size() / map.width)),
-          first_(first),
-          rows_(rows),
-          allocator_(allocator),
-          vectors_(allocator, std::size_t{rows + 2} * map.width, Vec3{}),
+        : map_(map), height_(static_cast<std::uint32_t>(map.vectors.size() / map.width)), first_(first), rows_(rows),
+          allocator_(allocator), vectors_(allocator, std::size_t{rows + 2} * map.width, Vec3{}),
           roles_(allocator, vectors_.size(), TexelRole::excluded) {}
 
     void choose(const IntegerChoice& choice, Parallel& parallel) {

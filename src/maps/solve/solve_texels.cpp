@@ -117,16 +117,10 @@ SymmetricBlock inverseOf(SymmetricBlock m) {
 class Gradients {
   public:
     Gradients(const TexelSystem& system, std::span<Vec3> texels, Parallel& parallel, const Allocator* allocator)
-        : system_(system),
-          texels_(texels),
-          parallel_(parallel),
-          residual_(allocator, system.rowCount(), Vec3{}),
-          direction_(allocator, system.rowCount(), Vec3{}),
-          image_(allocator, system.rowCount(), Vec3{}),
-          inverse_(allocator, system.rowCount()),
-          tasks_((system.rowCount() + kSystemRows - 1) / kSystemRows),
-          first_(allocator, tasks_),
-          second_(allocator, tasks_) {}
+        : system_(system), texels_(texels), parallel_(parallel), residual_(allocator, system.rowCount(), Vec3{}),
+          direction_(allocator, system.rowCount(), Vec3{}), image_(allocator, system.rowCount(), Vec3{}),
+          inverse_(allocator, system.rowCount()), tasks_((system.rowCount() + kSystemRows - 1) / kSystemRows),
+          first_(allocator, tasks_), second_(allocator, tasks_) {}
 
     void run(const StepCallback& report_step) {
         // Each step halves the error, approximately. After the last step the error is below the precision of 16 bits.
@@ -244,12 +238,8 @@ namespace {
 class IntegerTexel {
   public:
     IntegerTexel(const IntegerChoice& choice, const SymmetricBlock& m, const Vec3& h)
-        : choice_(choice),
-          step_(2.0f / static_cast<float>(choice.most)),
-          half_(static_cast<float>(choice.most) / 2),
-          last_(static_cast<float>(choice.most)),
-          m_(m),
-          h_(h) {
+        : choice_(choice), step_(2.0f / static_cast<float>(choice.most)), half_(static_cast<float>(choice.most) / 2),
+          last_(static_cast<float>(choice.most)), m_(m), h_(h) {
         // For a given z, the optimal real x and y lie on a line.
         const float factor = 1 / (m[0] * m[3] - m[1] * m[1]);
         start_x_ = factor * (m[1] * h.y - m[3] * h.x);

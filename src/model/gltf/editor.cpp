@@ -24,11 +24,8 @@ void setOrErase(Json& object, const char* key, Json value) {
 }  // namespace
 
 Editor::Editor(Document& document, std::string new_file_name)
-    : document_(document),
-      new_file_name_(std::move(new_file_name)),
-      accessor_uses_(countAccessorUses(document)),
-      view_uses_(countViewUses(document)),
-      extents_(collectExtents(document)) {}
+    : document_(document), new_file_name_(std::move(new_file_name)), accessor_uses_(countAccessorUses(document)),
+      view_uses_(countViewUses(document)), extents_(collectExtents(document)) {}
 
 void Editor::moveUse(std::optional<std::size_t> from, std::size_t to) {
     if (from) --accessor_uses_[*from];

@@ -233,10 +233,7 @@ std::string materialName(const Document& document, std::size_t material) {
 class MaterialUses {
   public:
     MaterialUses(const Document& document, std::size_t material, bool only_in_variant, std::vector<TangentUse>& uses)
-        : document_(document),
-          material_(material),
-          only_in_variant_(only_in_variant),
-          uses_(uses),
+        : document_(document), material_(material), only_in_variant_(only_in_variant), uses_(uses),
           first_(uses.size()) {}
 
     /// Collects the textures of unknown extensions that are named like normal maps.

@@ -12,8 +12,8 @@
 namespace tspace::gltf {
 
 Model::Model(Document&& document)
-    : document_(std::make_unique<Document>(std::move(document))),
-      arrays_(std::make_unique<DecodedArrays>(*document_)) {}
+    : document_(std::make_unique<Document>(std::move(document))), arrays_(std::make_unique<DecodedArrays>(*document_)) {
+}
 
 std::vector<Primitive>& Model::primitives() {
     if (!primitives_) {

@@ -99,10 +99,7 @@ inline bool hidesItself(const Json& node) {
 class Nodes {
   public:
     explicit Nodes(const Document& document)
-        : document_(document),
-          list_(rootArray(document, "nodes")),
-          worlds_(list_.size()),
-          is_hidden_(list_.size(), 0),
+        : document_(document), list_(rootArray(document, "nodes")), worlds_(list_.size()), is_hidden_(list_.size(), 0),
           seen_(list_.size(), 0) {
         std::vector<std::uint8_t> is_child(list_.size(), 0);
         for (std::size_t i = 0; i < list_.size(); ++i) {

@@ -27,8 +27,7 @@ class MemoryBudget {
 
     /// `limit_bytes`: see FileOptions::memory_limit_bytes.
     explicit MemoryBudget(std::uint64_t limit_bytes = 0)
-        : is_from_user_(limit_bytes != 0),
-          granted_(is_from_user_ ? limited(limit_bytes) : kAnyFile),
+        : is_from_user_(limit_bytes != 0), granted_(is_from_user_ ? limited(limit_bytes) : kAnyFile),
           left_(granted_ - kProgram) {}
 
     /// Raises the limit by the size of the file, or of a file that it references.

@@ -15,11 +15,8 @@ namespace tspace {
 namespace fs = std::filesystem;
 
 NamedFiles::NamedFiles(const Path& model, const FileOptions& options)
-    : find_file_(options.find_file),
-      opened_(options.opened),
-      named_(options.named ? options.named : options.opened),
-      is_in_memory_(options.content.data() != nullptr),
-      allow_external_(options.allow_external) {
+    : find_file_(options.find_file), opened_(options.opened), named_(options.named ? options.named : options.opened),
+      is_in_memory_(options.content.data() != nullptr), allow_external_(options.allow_external) {
     if (is_in_memory_) return;
     folder_ = folderOf(model);
     if (opened_) opened_(model.string());

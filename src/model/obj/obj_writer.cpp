@@ -75,10 +75,7 @@ class ImageBuilder {
     ImageBuilder(const Model& model, const Path& output, DocumentBuilder& builder, std::vector<std::string>& sources,
                  std::vector<std::string>& warnings)
         : names_by_uri_(!model.files.areInMemory() && isSameFile(folderOf(output), model.files.folder())),
-          flipped_maps_(model.flipped_maps),
-          named_(model.files),
-          builder_(builder),
-          sources_(sources),
+          flipped_maps_(model.flipped_maps), named_(model.files), builder_(builder), sources_(sources),
           warnings_(warnings) {}
 
     /// Sets material[key] to a reference to the texture; does nothing if the image cannot be read.

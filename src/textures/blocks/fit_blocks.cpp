@@ -173,16 +173,9 @@ template <class Format>
 class LevelFit {
   public:
     LevelFit(const NormalLevel& level, const BlockOptions& options, Parallel& parallel)
-        : format_(options.is_signed),
-          quality_(options.quality),
-          parallel_(parallel),
-          width_(level.width),
-          height_(level.height),
-          across_((width_ + 3) / 4),
-          down_((height_ + 3) / 4),
-          half_(format_.most() / 2),
-          errors_(level.normals.size()),
-          kept_(2 * across_ * down_) {}
+        : format_(options.is_signed), quality_(options.quality), parallel_(parallel), width_(level.width),
+          height_(level.height), across_((width_ + 3) / 4), down_((height_ + 3) / 4), half_(format_.most() / 2),
+          errors_(level.normals.size()), kept_(2 * across_ * down_) {}
 
     FittedLevel run(const NormalLevel& level) {
         if (quality_ == BlockQuality::quick) {

@@ -30,9 +30,7 @@ struct Welded {
     Nodes nodes;
 
     explicit Welded(const MeshView& view, unsigned threads = 1)
-        : mesh(view),
-          triangles(cutFaces(mesh, Ngons::skip, nullptr)),
-          parallel(Execution{.thread_count = threads}),
+        : mesh(view), triangles(cutFaces(mesh, Ngons::skip, nullptr)), parallel(Execution{.thread_count = threads}),
           nodes(weld(mesh, triangles, nullptr, parallel)) {}
 
     Links changes() {

@@ -220,9 +220,7 @@ struct Outputs {
     TangentReport report;
 
     explicit Outputs(std::size_t corners)
-        : tangents(corners, Vec4{9, 9, 9, 9}),
-          bitangents(corners, Vec3{9, 9, 9}),
-          magnitudes_s(corners, 9.0f),
+        : tangents(corners, Vec4{9, 9, 9, 9}), bitangents(corners, Vec3{9, 9, 9}), magnitudes_s(corners, 9.0f),
           magnitudes_t(corners, 9.0f) {}
     [[nodiscard]] TangentOutput view() { return {tangents, bitangents, magnitudes_s, magnitudes_t}; }
 };

@@ -280,10 +280,7 @@ class RowShader {
   public:
     RowShader(RenderShow show, std::span<const DrawnMesh> meshes, std::span<const ShownSurface* const> surfaces,
               const Camera& camera, const DVec3& to_light, const PictureSize& size)
-        : show_(show),
-          meshes_(meshes),
-          surfaces_(surfaces),
-          lighting_{.to_light = to_light, .to_eye = camera.back()},
+        : show_(show), meshes_(meshes), surfaces_(surfaces), lighting_{.to_light = to_light, .to_eye = camera.back()},
           size_(size) {
         if (show == RenderShow::lit) {
             background_ = {static_cast<float>(srgbToLight(kBackground.x)),

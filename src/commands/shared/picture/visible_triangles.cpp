@@ -207,12 +207,8 @@ DVec3 SeenTriangle::nearness() const {
 
 VisibleTriangles::VisibleTriangles(std::span<const DrawnMesh> meshes, const Camera& camera, std::uint32_t width,
                                    std::uint32_t height, WorkLimit& work_limit)
-    : meshes_(meshes),
-      camera_(camera),
-      width_(width),
-      height_(height),
-      nearness_(std::size_t{width} * height, -HUGE_VALF),
-      triangles_(std::size_t{width} * height, kNone) {
+    : meshes_(meshes), camera_(camera), width_(width), height_(height),
+      nearness_(std::size_t{width} * height, -HUGE_VALF), triangles_(std::size_t{width} * height, kNone) {
     std::uint64_t count = 0;
     for (const DrawnMesh& mesh : meshes) {
         first_.push_back(static_cast<std::uint32_t>(count));

@@ -215,15 +215,9 @@ class Fitter {
   public:
     Fitter(const MeshView& triangles, std::span<const Vec4> stored, double tolerance_deg,
            const QuadCandidates& candidates, const Execution& execution)
-        : triangles_(triangles),
-          stored_(stored),
-          tolerance_deg_(tolerance_deg),
-          candidates_(candidates),
-          execution_(execution),
-          votes_(uvVotes(triangles)),
-          alone_(candidates.triangleCount()),
-          paired_(candidates.triangleCount(), 0),
-          best_kinds_(candidates.triangleCount(), PairKind::quad) {}
+        : triangles_(triangles), stored_(stored), tolerance_deg_(tolerance_deg), candidates_(candidates),
+          execution_(execution), votes_(uvVotes(triangles)), alone_(candidates.triangleCount()),
+          paired_(candidates.triangleCount(), 0), best_kinds_(candidates.triangleCount(), PairKind::quad) {}
 
     void takeTriangles(std::span<const Vec4> tangents) {
         const std::vector<float> degrees = distances(triangles_, stored_, tangents);

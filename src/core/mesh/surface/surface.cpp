@@ -192,8 +192,7 @@ Vec3 VertexRotation::apply(const Vec3& normal) const {
 
 SurfaceRotations::SurfaceRotations(std::span<const Vec3> positions, std::span<const Vec3> normals,
                                    std::span<const std::uint32_t> corners)
-    : positions_(positions),
-      corners_(corners),
+    : positions_(positions), corners_(corners),
       class_of_(findEqualVertices(StridedSpan<const Vec3>(positions), StridedSpan<const Vec3>(normals), {}).class_of) {}
 
 std::vector<VertexRotation> SurfaceRotations::under(std::span<const Vec3> offsets) const {

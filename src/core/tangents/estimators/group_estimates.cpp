@@ -28,9 +28,7 @@ class EstimateRound final : public SumRound {
     /// `from`: input of a refinement step, for all groups, with zeros for the dummy group; null for the first pass.
     /// `next`: output for the next step; null if there is none.
     EstimateRound(const Setting& setting, const float* from, float* next)
-        : SumRound(from != nullptr ? kStepRows : setting.estimator.row_count),
-          setting_(setting),
-          from_(from),
+        : SumRound(from != nullptr ? kStepRows : setting.estimator.row_count), setting_(setting), from_(from),
           next_(next) {}
 
     void add(const std::uint32_t* vertices, const std::uint32_t* groups, std::size_t count,

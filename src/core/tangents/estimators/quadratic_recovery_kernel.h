@@ -344,13 +344,9 @@ struct Edge {
 
     Edge(const TriangleEdges& t, std::size_t k, const Plane& first, const Plane& second, const Vectors (&first_j)[2],
          const Vectors (&second_j)[2], Floats size, Mask is_known)
-        : e(t.edge[k]),
-          square(t.square[k]),
-          arc_length(arcLengthOf(first.n, second.n, e, square)),
-          u(t.u[k]),
+        : e(t.edge[k]), square(t.square[k]), arc_length(arcLengthOf(first.n, second.n, e, square)), u(t.u[k]),
           v(t.v[k]),
-          weight(quotient(size, square)),
-          along{u * first_j[0] + v * first_j[1], u * second_j[0] + v * second_j[1]},
+          weight(quotient(size, square)), along{u * first_j[0] + v * first_j[1], u * second_j[0] + v * second_j[1]},
           counts(is_known) {}
 };
 

@@ -94,16 +94,9 @@ class Evaluation {
   public:
     Evaluation(const EvaluationPlan& plan, const Pose& pose, const StridedSpan<const Vec2>& uvs,
                const TangentOutput& out, const Execution& execution, Parallel& parallel)
-        : plan_(plan),
-          pose_(pose),
-          uvs_(uvs),
-          execution_(execution),
-          out_(out),
-          sink_(out, plan.convention),
-          defaults_(out),
-          terms_(cornerTermsFor(execution.simd)),
-          source_(cornerSource(pose, uvs, plan.method, needsOnlyTangents(plan, out))),
-          allocator_(execution.allocator),
+        : plan_(plan), pose_(pose), uvs_(uvs), execution_(execution), out_(out), sink_(out, plan.convention),
+          defaults_(out), terms_(cornerTermsFor(execution.simd)),
+          source_(cornerSource(pose, uvs, plan.method, needsOnlyTangents(plan, out))), allocator_(execution.allocator),
           parallel_(parallel) {
         source_.with_marks = false;
     }

@@ -182,8 +182,7 @@ class Sink {
     /// Prepares writing. The UV determinant refers to the side to which cross(P1-P0, P2-P0) points, whereas the sign
     /// must refer to N's side.
     Sink(const TangentOutput& out, Convention convention)
-        : out_(out),
-          sign_factor_(signFactor(convention) * normalFactor(convention)),
+        : out_(out), sign_factor_(signFactor(convention) * normalFactor(convention)),
           bitangent_factor_(signFactor(convention)) {}
 
     [[nodiscard]] float sign(bool positive) const { return positive ? sign_factor_ : -sign_factor_; }

@@ -83,9 +83,7 @@ void linkLarge(std::span<const NodeCorner> around, const CornerLinks& links, std
 }
 
 Grouping::Grouping(const VertexPath& path, VertexCorners& corners)
-    : chosen_(path.chosen),
-      bucket_(path.setting.bucket),
-      corners_(corners),
+    : chosen_(path.chosen), bucket_(path.setting.bucket), corners_(corners),
       contested_(path.setting.options.execution.allocator) {
     const Allocator* allocator = path.setting.options.execution.allocator;
     std::size_t largest = 0;

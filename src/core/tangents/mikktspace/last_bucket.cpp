@@ -119,10 +119,7 @@ inline std::uint32_t keyOf(const std::uint32_t* nodes, const std::uint32_t* repr
 class BucketFinder {
   public:
     BucketFinder(const WeldedMesh& welded, const Allocator* allocator, Parallel& parallel)
-        : in_(welded),
-          allocator_(allocator),
-          parallel_(parallel),
-          representatives_(allocator, welded.nodes.count),
+        : in_(welded), allocator_(allocator), parallel_(parallel), representatives_(allocator, welded.nodes.count),
           bucket_(allocator) {}
 
     /// Returns the links that the bucket changes. `kept`: allocator of the result.

@@ -36,13 +36,8 @@ constexpr std::uint16_t kReplaced = 0x8000;  ///< flag in NodeSums::marks: the n
 /// State that the steps of one single-pass tangent computation share.
 struct OnePass {
     OnePass(const NodeSetting& setting, const TangentOutput& output, ScratchBlock& scratch, Parallel& threads)
-        : in(setting),
-          out(output),
-          transient(scratch),
-          parallel(threads),
-          allocator(setting.options.execution.allocator),
-          sink(output, setting.options.convention),
-          defaults(output),
+        : in(setting), out(output), transient(scratch), parallel(threads),
+          allocator(setting.options.execution.allocator), sink(output, setting.options.convention), defaults(output),
           complex(allocator, setting.nodes.count / 64 + 1, std::uint64_t{0}) {}
 
     /// Returns whether the method is `fast` or `best`: estimators compute its sums, and this pass only forms groups.
@@ -219,11 +214,8 @@ class JoinedTriangles final : public TriangleGroups {
     /// `is_planned`: one bit per node, set for complex nodes.
     JoinedTriangles(const TriangleGroups& by_node, std::size_t node_count, const EvaluationPlan& plan,
                     std::span<const std::uint64_t> is_planned)
-        : TriangleGroups(by_node.count),
-          by_node_(by_node),
-          node_count_(static_cast<std::uint32_t>(node_count)),
-          plan_(plan),
-          is_planned_(is_planned) {}
+        : TriangleGroups(by_node.count), by_node_(by_node), node_count_(static_cast<std::uint32_t>(node_count)),
+          plan_(plan), is_planned_(is_planned) {}
 
     void read(std::size_t first, std::size_t triangles, std::uint32_t* vertices, std::uint32_t* groups) const override {
         by_node_.read(first, triangles, vertices, groups);

@@ -56,22 +56,11 @@ bool sameData(const MeshView& mesh, std::uint32_t a, std::uint32_t b) {
 class Planner {
   public:
     explicit Planner(const VertexPath& path)
-        : path_(path),
-          in_(path.setting),
-          mesh_(in_.mesh),
-          allocator_(in_.options.execution.allocator),
+        : path_(path), in_(path.setting), mesh_(in_.mesh), allocator_(in_.options.execution.allocator),
           threshold_cosine_(in_.maySplit() ? thresholdCosine(in_.options.angular_threshold_deg) : -1.0f),
-          corners_(readCorners(path)),
-          grouping_(path, corners_),
-          splits_(in_, corners_, threshold_cosine_, allocator_),
-          ends_(allocator_),
-          members_(allocator_),
-          repeats_(allocator_),
-          positive_(allocator_),
-          split_groups_(allocator_),
-          split_members_(allocator_),
-          conflicts_(allocator_),
-          default_corners_(allocator_),
+          corners_(readCorners(path)), grouping_(path, corners_), splits_(in_, corners_, threshold_cosine_, allocator_),
+          ends_(allocator_), members_(allocator_), repeats_(allocator_), positive_(allocator_),
+          split_groups_(allocator_), split_members_(allocator_), conflicts_(allocator_), default_corners_(allocator_),
           copies_(allocator_) {}
 
     EvaluationPlan run() {
@@ -275,14 +264,10 @@ constexpr std::size_t kBlockGrain = 16;
 class CornerReader {
   public:
     explicit CornerReader(const VertexPath& path)
-        : path_(path),
-          in_(path.setting),
+        : path_(path), in_(path.setting),
           source_(cornerSource({in_.mesh.positions, in_.mesh.normals}, in_.mesh.uvs, in_.options.method, false)),
-          terms_(cornerTermsFor(in_.options.execution.simd)),
-          allocator_(in_.options.execution.allocator),
-          by_node_(in_, nullptr),
-          to_(allocator_),
-          good_(allocator_) {
+          terms_(cornerTermsFor(in_.options.execution.simd)), allocator_(in_.options.execution.allocator),
+          by_node_(in_, nullptr), to_(allocator_), good_(allocator_) {
         source_.adding_only = true;
         if (isKept(path.use) && !in_.maySplit()) source_.weighting = Weighting::none;
     }

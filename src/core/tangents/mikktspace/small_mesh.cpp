@@ -31,16 +31,9 @@ class SmallMesh {
   public:
     SmallMesh(const WeldedMesh& welded, const Call<TangentOptions>& options, const TangentOutput& out,
               const Allocator* transient, Parallel& parallel)
-        : in_(welded),
-          options_(options),
-          transient_(transient),
-          parallel_(parallel),
-          tangents_(out.tangents),
-          sink_(out, options.convention),
-          defaults_(out),
-          count_(static_cast<unsigned>(welded.triangles.count)),
-          needs_rest_(!requestsOnlyTangents(out)),
-          cosine_(thresholdCosine(options.angular_threshold_deg)),
+        : in_(welded), options_(options), transient_(transient), parallel_(parallel), tangents_(out.tangents),
+          sink_(out, options.convention), defaults_(out), count_(static_cast<unsigned>(welded.triangles.count)),
+          needs_rest_(!requestsOnlyTangents(out)), cosine_(thresholdCosine(options.angular_threshold_deg)),
           rest_(options.execution.allocator, needs_rest_ ? 3 * welded.triangles.count + 1 : 0) {}
 
     TangentReport run() {
