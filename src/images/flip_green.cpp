@@ -37,17 +37,15 @@ Result<ImageFileFormat> readableFormat(ByteSpan bytes) {
 }
 
 Result<ImageFileFormat> outputFormat(ImageFileFormat input, const FlipGreenOptions& options) {
-    if (options.jpeg_quality < 1 || options.jpeg_quality > 100) {
+    if (options.jpeg_quality < 1 || options.jpeg_quality > 100)
         return Error{ErrorCode::invalidOption, "the JPEG quality must be from 1 to 100"};
-    }
     const ImageFileFormat format = options.format == ImageFileFormat::sameAsInput ? input : options.format;
     if (format != input && format != ImageFileFormat::png) {
         return Error{ErrorCode::unsupportedFile,
                      "converting to the format of the output may lose data; write the format of the input, or PNG"};
     }
-    if (format == ImageFileFormat::png && whyNotRead(ImageFormat::png) != nullptr) {
+    if (format == ImageFileFormat::png && whyNotRead(ImageFormat::png) != nullptr)
         return Error{ErrorCode::unsupportedFile, whyNotRead(ImageFormat::png)};
-    }
     return format;
 }
 

@@ -272,9 +272,8 @@ class PairsRun {
             if (done.outcome.result->output_files.empty()) {
                 for (const std::string& finding : findings) printRemark(finding);
             }
-            if (!arguments_.json && !arguments_.quiet && !output_is_closed_) {
+            if (!arguments_.json && !arguments_.quiet && !output_is_closed_)
                 output_is_closed_ = !printResult(texts_[number], stdout, failures_[number]);
-            }
         }
         take(done.exit_code);
     }

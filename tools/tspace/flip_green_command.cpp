@@ -26,9 +26,8 @@ std::string finish(FlipGreenArguments& arguments) {
 }
 
 ExitCode runFlipGreen(const FlipGreenArguments& arguments) {
-    if (!arguments.in_place && isOneFile(arguments.input, arguments.output)) {
+    if (!arguments.in_place && isOneFile(arguments.input, arguments.output))
         return printUsageError("the output " + arguments.output + " is the input; use --in-place to overwrite it");
-    }
     const Result<Done> fit = prepareOutputs({arguments.output}, {}, arguments.options.dry_run);
     if (!fit) return printUsageError(fit.error().message);
     if (goesToTerminal(arguments)) return printUsageError(kNoTextForATerminal);

@@ -222,9 +222,8 @@ ExitCode runGenerate(const GenerateArguments& arguments) {
         return printUsageError(fit.error().message);
     takeShard(*jobs, arguments.batch.shard);
     GenerateRun run(arguments, std::move(*jobs));
-    if (const Result<Done> opened = run.openManifest(); !opened) {
+    if (const Result<Done> opened = run.openManifest(); !opened)
         return printError(arguments.batch.manifest, opened.error());
-    }
     return run.run();
 }
 

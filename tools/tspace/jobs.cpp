@@ -142,9 +142,8 @@ Result<std::vector<Job>> jobsInPlace(const JobRequest& request) {
     for (Job& job : jobs) {
         job.output = job.input;
         if (job.input == "-") return usage("--in-place cannot be used with standard input");
-        if (!isGltfName(job.input) && job.error.code == ErrorCode::ok && !lowerExtension(job.input).empty()) {
+        if (!isGltfName(job.input) && job.error.code == ErrorCode::ok && !lowerExtension(job.input).empty())
             job.error = usage("only .glb, .vrm and .gltf files can be overwritten in place; use -o to write a .glb");
-        }
     }
     return jobs;
 }
@@ -202,9 +201,8 @@ Result<std::vector<Job>> jobsIntoFolder(const JobRequest& request) {
             job.output = Path(folder / relative.replace_extension(extension)).string();
             // If a.glb and a.obj are in the same folder, the second one becomes a.obj.glb.
             const auto taken = writers.find(canonicalName(job.output));
-            if (taken != writers.end() && lowerExtension(taken->second) != lowerExtension(job.input)) {
+            if (taken != writers.end() && lowerExtension(taken->second) != lowerExtension(job.input))
                 job.output = Path(folder / item.relative).string() + extension;
-            }
             const std::string name = canonicalName(job.output);
             const auto [writer, is_new] = writers.emplace(name, job.input);
             if (inputs.count(identityOf(job.output)) != 0) {

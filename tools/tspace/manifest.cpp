@@ -184,9 +184,8 @@ Result<Done> ManifestWriter::append(const ManifestEntry& entry) {
     line["inputs"] = filesJson(entry.inputs);
     line["outputs"] = filesJson(entry.outputs);
     const std::string text = line.dump(-1, ' ', BadUtf8::replace) + "\n";
-    if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size() || std::fflush(file_.get()) != 0) {
+    if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size() || std::fflush(file_.get()) != 0)
         return fileError(ErrorCode::cannotWrite, path_);
-    }
     return Done{};
 }
 

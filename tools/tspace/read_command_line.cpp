@@ -53,9 +53,8 @@ class Reader {
         for (std::size_t i = 1; i < argument.size(); ++i) {
             const Option* option = find({'-', argument[i]});
             if (option == nullptr) return unknownOption(command_.options, argument);
-            if (!option->value.empty()) {
+            if (!option->value.empty())
                 return i + 1 < argument.size() ? take(*option, argument.substr(i + 1)) : takeNext(*option);
-            }
             const std::string wrong = take(*option, "");
             if (!wrong.empty()) return wrong;
         }

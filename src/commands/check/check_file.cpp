@@ -21,9 +21,8 @@ namespace {
 void checkOptions(const CheckOptions& options) {
     for (const double value : {options.direction_deg, options.error_deg, options.orthogonal_deg, options.split_deg,
                                options.unit_tolerance, options.error_share}) {
-        if (!(value >= 0) || !std::isfinite(value)) {
+        if (!(value >= 0) || !std::isfinite(value))
             failFile(ErrorCode::invalidOption, "angles, tolerances and shares must be finite and not negative");
-        }
     }
 }
 

@@ -115,9 +115,8 @@ std::uint64_t workBytes(const Scene& scene, const NormalMap& map) {
     const ByteSpan bytes = scene.images[map.image].bytes;
     const ImageSize size = claimedSize(bytes);
     std::uint64_t vertices = 0;
-    for (const MapPart& part : map.parts) {
+    for (const MapPart& part : map.parts)
         vertices = std::max<std::uint64_t>(vertices, part.primitive->positions.size());
-    }
     return imageWorkBytes(bytes) + 2 * TexelMask::bytesOf(size.width, size.height) +
            GreenBlocks::bytesOf(size.width, size.height) + sizeof(Vec2) * vertices;
 }
@@ -531,9 +530,8 @@ ImageFindings checkImages(const Scene& scene, const CheckOptions& options) {
             result.image_green[map.image] = map.test ? sideOf(map, *map.test) : GreenSide::unread;
         }
         for (const MapPart& part : map.parts) {
-            for (const std::size_t primitive : part.followers) {
+            for (const std::size_t primitive : part.followers)
                 result.primitive_green[primitive] = map.test ? sideOf(map, part.test) : GreenSide::unread;
-            }
         }
         for (Finding& finding : describe(scene, map)) {
             result.findings.push_back(std::move(finding));

@@ -431,9 +431,8 @@ void checkMorphTargets(PrimitiveFacts& facts) {
     std::set<std::array<const Vec3*, 3>> seen;
     for (std::size_t i = 0; i < facts.primitive.morph_targets.size(); ++i) {
         const SceneMorphTarget& target = facts.primitive.morph_targets[i];
-        if (seen.insert({target.positions.data(), target.normals.data(), target.tangents.data()}).second) {
+        if (seen.insert({target.positions.data(), target.normals.data(), target.tangents.data()}).second)
             checker.check(i, target);
-        }
     }
     checker.report();
 }

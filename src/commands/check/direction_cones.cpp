@@ -143,9 +143,8 @@ void considerEqualVertices(const TangentView& mesh, const Surface& surface, doub
     for (const std::uint8_t other : {std::uint8_t{2}, std::uint8_t{1}}) {
         std::vector<bool> wanted(equal.class_count, false);
         for (std::size_t v = 0; v < distances.size(); ++v) {
-            if (distances[v] > tolerance_deg && orientations[v] != 3 && orientations[v] != other) {
+            if (distances[v] > tolerance_deg && orientations[v] != 3 && orientations[v] != other)
                 wanted[equal.class_of[v]] = true;
-            }
         }
         std::vector<std::uint32_t> classes(distances.size(), kNoClass);
         for (std::size_t v = 0; v < distances.size(); ++v) {
@@ -239,9 +238,7 @@ std::vector<DirectionCone> conesOfClasses(const TangentView& mesh, const Surface
 
 std::vector<float> directionDistances(const TangentView& mesh, const Surface& surface, double tolerance_deg) {
     NearestDirections nearest(mesh);
-    for (std::size_t c = 0; c < surface.faces.size() * 3; ++c) {
-        nearest.add(mesh.corners[c], surface.faces[c / 3]);
-    }
+    for (std::size_t c = 0; c < surface.faces.size() * 3; ++c) nearest.add(mesh.corners[c], surface.faces[c / 3]);
     std::vector<float> distances(mesh.positions.size());
     bool is_any_far = false;
     for (std::size_t v = 0; v < distances.size(); ++v) {

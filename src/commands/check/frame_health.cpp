@@ -71,9 +71,7 @@ void examineMixedSigns(const TangentView& mesh, const Surface& surface, FrameHea
         const bool positive = mesh.tangents[corner[0]].w > 0;
         if ((mesh.tangents[corner[1]].w > 0) != positive || (mesh.tangents[corner[2]].w > 0) != positive) {
             health.signs_mixed.add(corner[0], surface.faces[f].area);
-            for (std::size_t k = 0; k < 3; ++k) {
-                health.fault(corner[k], FindingCode::signsMixed, mesh.positions.size());
-            }
+            for (std::size_t k = 0; k < 3; ++k) health.fault(corner[k], FindingCode::signsMixed, mesh.positions.size());
         }
     }
 }

@@ -81,9 +81,8 @@ class MapAnalyzer {
     MapAnalyzer(std::span<const TexelBytes> texels, bool has_alpha, std::span<const TexelOnSurface> surface,
                 std::span<const TexelOnSurface> in_world)
         : texels_(texels), has_alpha_(has_alpha), surface_(surface), in_world_(in_world), plain_(fitOf(texels, {})) {
-        for (std::size_t i = 0; i < channels_.size(); ++i) {
+        for (std::size_t i = 0; i < channels_.size(); ++i)
             channels_[i] = spreadOf(texels, [i](const TexelBytes& texel) { return static_cast<double>(texel[i]); });
-        }
     }
 
     [[nodiscard]] MapAnalysis analysis() const {

@@ -97,9 +97,7 @@ MovedFaces::MovedFaces(const ScenePrimitive& primitive, std::span<const ScenePri
                 if (!box.has(moved.primitive.positions[vertex])) continue;
                 const std::uint32_t point = points.find(pointKey(moved, vertex));
                 if (point == kNoPoint) continue;
-                for (std::size_t triangle = first; triangle < end; ++triangle) {
-                    addFace(moved, triangle, point);
-                }
+                for (std::size_t triangle = first; triangle < end; ++triangle) addFace(moved, triangle, point);
             }
         }
     };

@@ -99,9 +99,8 @@ constexpr double kMinPartShare = 0.02;
 
 double GreenTest::confidence() const {
     if (verdict == GreenVerdict::unknown || block_count == 0) return 0;
-    if (verdict == GreenVerdict::mixed) {
+    if (verdict == GreenVerdict::mixed)
         return static_cast<double>(down_part_blocks + up_part_blocks) / static_cast<double>(block_count);
-    }
     const double down = static_cast<double>(down_block_count) / static_cast<double>(block_count);
     return std::fabs(2 * down - 1);
 }

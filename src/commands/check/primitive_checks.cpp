@@ -428,9 +428,8 @@ Tally compareReadings(const PrimitiveFacts& facts, const UvReading& reading) {
         if (a.orientation == 0 || b.orientation == 0) continue;
         ++different.total;
         const double angle = angleBetween(toDouble(a.tangent), toDouble(b.tangent)) * 180 / kPi;
-        if (a.orientation != b.orientation || angle > facts.options.direction_deg) {
+        if (a.orientation != b.orientation || angle > facts.options.direction_deg)
             different.add(facts.mesh.corners[3 * f], a.area, angle);
-        }
     }
     different.finish(facts.surface.area);
     return different;

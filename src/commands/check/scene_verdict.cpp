@@ -301,9 +301,8 @@ std::vector<PrimitiveJudgement> judgePrimitives(const Scene& scene, const CheckO
     for (std::size_t i = 0; i < scene.primitives.size(); ++i) {
         const std::size_t number = work.result_of[i];
         const ScenePrimitive& checked = scene.primitives[work.primitives[number]];
-        for (const Finding& finding : results[number].findings) {
+        for (const Finding& finding : results[number].findings)
             judgements[i].findings.push_back(placed(finding, scene.primitives[i], checked));
-        }
         judgements[i].faults = results[number].faults;
         judgements[i].wrong_sign_share = results[number].wrong_sign_share;
         judgements[i].compared_share = results[number].compared_share;

@@ -161,9 +161,8 @@ void addMapWarnings(const ConvertMapFileOptions& options, ConvertMapFileReport& 
     }
     const bool has_mesh = report.from.triangle_count + report.to.triangle_count > 0;
     if (has_mesh && texels.converted == 0) warn("the map was not converted, because no triangle of the mesh uses it");
-    if (!options.to_mesh.empty() && texels.converted > 0 && texels.changed == 0) {
+    if (!options.to_mesh.empty() && texels.converted > 0 && texels.changed == 0)
         warn("no texel was changed, because both meshes have the same frames");
-    }
 }
 
 /// Fails if the models are not one surface with one UV map, or if texels would need several directions.
@@ -438,21 +437,17 @@ std::string finish(const Given& given, ConvertMapFileOptions& options) {
         if (name == "--from-bitangent" || name == "--to-bitangent") item.option->take(item.value);
     }
     if (given.has("--flip-red")) options.layout.x.is_inverted = !options.layout.x.is_inverted;
-    if (given.has("--flip-green")) {
+    if (given.has("--flip-green"))
         options.to_reading.green = options.to_reading.green == Green::up ? Green::down : Green::up;
-    }
-    if (!options.to_mesh.empty() && options.mesh.empty() && options.from == MapFileSpace::tangent) {
+    if (!options.to_mesh.empty() && options.mesh.empty() && options.from == MapFileSpace::tangent)
         return "--to-mesh needs --mesh, the model that the map was made for";
-    }
     const bool same_kind = options.from == options.to;
-    if (!same_kind && options.mesh.empty() && options.to_mesh.empty()) {
+    if (!same_kind && options.mesh.empty() && options.to_mesh.empty())
         return "converting between spaces needs the frames of a model; use --mesh";
-    }
     const bool same_frames = options.from_reading.bitangent == options.to_reading.bitangent &&
                              options.from_reading.unit_vectors == options.to_reading.unit_vectors;
-    if (options.from == MapFileSpace::tangent && same_kind && !same_frames && options.mesh.empty()) {
+    if (options.from == MapFileSpace::tangent && same_kind && !same_frames && options.mesh.empty())
         return "these conventions interpolate frames differently, so the frames of a model are needed; use --mesh";
-    }
     return {};
 }
 

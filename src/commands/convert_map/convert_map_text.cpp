@@ -23,9 +23,8 @@ std::string convertMapText(const Outcome<ConvertMapFileReport>& outcome, const C
     table.addRow({"image", fmt::format("{} x {}, {} bits per channel, from {}", done.width, done.height, done.bits,
                                        done.bits_before)});
     if (done.from.triangle_count > 0) table.addRow({"from", meshText(options.mesh, done.from)});
-    if (done.to.triangle_count > 0) {
+    if (done.to.triangle_count > 0)
         table.addRow({"to", meshText(options.to_mesh.empty() ? options.mesh : options.to_mesh, done.to)});
-    }
     table.addRow({"texels", fmt::format("{} changed, {} unchanged inside triangles, {} background", texels.changed,
                                         texels.converted - texels.changed + texels.without_frame + texels.unmatched,
                                         texels.background)});

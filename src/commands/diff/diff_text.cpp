@@ -27,9 +27,8 @@ std::string histogramText(const AngleStatistics& tangents) {
     if (tangents.count == 0) return "";
     const std::uint64_t most = *std::max_element(tangents.histogram.begin(), tangents.histogram.end());
     Table table;
-    for (std::size_t i = 0; i < kAngleBins.size(); ++i) {
+    for (std::size_t i = 0; i < kAngleBins.size(); ++i)
         table.addRow({binText(i), std::to_string(tangents.histogram[i]), bar(tangents.histogram[i], most)});
-    }
     return "  corners by the angle between their tangents, in degrees\n" + table.text("    ");
 }
 

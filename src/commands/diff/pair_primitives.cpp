@@ -111,9 +111,8 @@ std::vector<DVec3> boxedPositions(const ScenePrimitive& primitive) {
     const DVec3 center = 0.5 * (low + high);
     std::vector<DVec3> boxed;
     boxed.reserve(primitive.positions.size());
-    for (const Vec3& p : primitive.positions) {
+    for (const Vec3& p : primitive.positions)
         boxed.push_back(isFinite(p) ? scale * (toDouble(p) - center) : DVec3{kInfinity, kInfinity, kInfinity});
-    }
     return boxed;
 }
 
@@ -170,9 +169,8 @@ class TriangleGrid {
 std::uint32_t rotationBetween(const TriangleGrid& a, std::uint32_t t, const TriangleGrid& b, std::uint32_t u) {
     for (std::uint32_t rotation = 0; rotation < 3; ++rotation) {
         bool is_near = true;
-        for (std::uint32_t k = 0; k < 3 && is_near; ++k) {
+        for (std::uint32_t k = 0; k < 3 && is_near; ++k)
             is_near = length(a.at(t, k) - b.at(u, (k + rotation) % 3)) <= kPlaceTolerance;
-        }
         if (is_near) return rotation;
     }
     return 3;

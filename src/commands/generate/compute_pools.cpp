@@ -363,14 +363,12 @@ PoolElements PoolComputer::computeOne(const PoolPlan& pool, const Execution& exe
     reportProgress(progress);
     PoolFrames frames =
         computes ? valueOrThrow(computeFrames(vertices, geometries, options, computed)) : unchangedFrames(vertices);
-    if (pool.makes_tangents && frames.tangents.size() != frames.source_vertices.size()) {
+    if (pool.makes_tangents && frames.tangents.size() != frames.source_vertices.size())
         failFile(ErrorCode::internal, "no tangents were computed", first.place());
-    }
     reportProgress(progress);
     for (std::size_t i = 0; i < pool.geometries.size(); ++i) {
-        for (const std::size_t number : pool.geometries[i].primitives) {
+        for (const std::size_t number : pool.geometries[i].primitives)
             (pool.keeps_tangents ? copyReportOfKept : copyReport)(computed[i], reports[number]);
-        }
     }
     const bool has_tangent_deltas = pool.makes_tangents && !frames.morphs.empty();
     if (morph_normals) morph_normals->write(vertices, frames);

@@ -113,9 +113,8 @@ Verdict verdictOf(const PrimitiveJudgement& judgement, bool is_free) {
 void applyReadingOptions(const GenerateOptions& options, Scene& scene) {
     for (ScenePrimitive& primitive : scene.primitives) {
         // With the option 'all', tangents are judged as if a texture used them.
-        if (primitive.uses.empty() && options.selection.all) {
+        if (primitive.uses.empty() && options.selection.all)
             primitive.uses.push_back({.needed_by = "the option 'all'", .has_texture = primitive.other_reader.empty()});
-        }
         if (options.tangents.texture_transform == TextureTransform::apply) continue;
         for (TangentUse& use : primitive.uses) use.transform = {};
     }
@@ -222,9 +221,8 @@ void planRepair(Model& model, const GenerateOptions& options, GeneratePlan& plan
             return verdictOn(number).repairs.vertices.empty() ? &kNothing : nullptr;
         });
         for (const std::size_t number : good.primitives) keep(verdictOn(number), plan.reports[number]);
-        for (const std::size_t number : wrong.primitives) {
+        for (const std::size_t number : wrong.primitives)
             plan.reports[number].notes.push_back(kWrongNote + verdictOn(number).why);
-        }
         if (!wrong.primitives.empty()) pools.push_back(std::move(wrong));
         if (!good.primitives.empty() && (lacksDeltas(primitives[good.primitives[0]]) || !good.morph_normals.empty())) {
             good.keeps_tangents = true;

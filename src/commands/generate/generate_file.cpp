@@ -203,9 +203,8 @@ Json generatedPrimitiveJson(const PrimitiveReport& primitive) {
 Json totalsJson(const GenerateReport& report) {
     const Totals totals = totalsOf(report);
     Json json = Json::object({{"primitives", totals.primitive_count}});
-    for (const PrimitiveAction action : kActions) {
+    for (const PrimitiveAction action : kActions)
         json["actions"][actionName(action)] = totals.actions[static_cast<std::size_t>(action)];
-    }
     json["triangles"] = totals.triangle_count;
     json["verticesBefore"] = totals.vertices.before();
     json["verticesAfter"] = totals.vertices.after();

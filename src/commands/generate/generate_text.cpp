@@ -128,9 +128,7 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
     const GenerateReport& report = *outcome.result;
     Table table;
     table.addRow({"tangents", actionsText(totals)});
-    if (nothingNeeded(totals)) {
-        table.addRow({"hint", "no material needs tangents; use --all to add them anyway"});
-    }
+    if (nothingNeeded(totals)) table.addRow({"hint", "no material needs tangents; use --all to add them anyway"});
     if (totals.triangle_count != 0) {
         table.addRow({"computed", "tangents on " + counted(totals.triangle_count, "triangle")});
         if (totals.on_quads != 0) {
@@ -151,16 +149,13 @@ std::string summaryRows(const GenerateOutcome& outcome, const Totals& totals) {
             totals.normals_replaced == 0 ? "" : fmt::format(", {} of them recomputed", totals.normals_replaced);
         table.addRow({"normals", "generated for " + counted(totals.normals_generated, "primitive") + replaced});
     }
-    if (totals.morph_normals_computed != 0) {
+    if (totals.morph_normals_computed != 0)
         table.addRow({"morph targets", "normal deltas computed for " + std::to_string(totals.morph_normals_computed)});
-    }
-    if (totals.bitangents_generated != 0) {
+    if (totals.bitangents_generated != 0)
         table.addRow({"bitangents", "written for " + counted(totals.bitangents_generated, "primitive")});
-    }
     if (totals.frames_packed != 0) table.addRow({"packed", packedText(totals)});
-    if (totals.morph_deltas_computed != 0) {
+    if (totals.morph_deltas_computed != 0)
         table.addRow({"morph targets", "tangent deltas computed for " + std::to_string(totals.morph_deltas_computed)});
-    }
     for (const NormalMapReport& map : report.normal_maps) table.addRow({"normal map", normalMapText(map)});
     for (const ConvertedMapReport& map : report.converted_maps) table.addRow({"normal map", convertedMapText(map)});
     for (const std::string& warning : warningsOf(report, totals)) table.addRow({"warning", printable(warning)});
@@ -219,9 +214,8 @@ std::string primitiveRows(const GenerateReport& report) {
     for (const PrimitiveReport& primitive : report.primitives) {
         std::string vertices = std::to_string(primitive.vertices_before);
         const bool may_differ = wasComputed(primitive.action) || primitive.normals_generated;
-        if (primitive.vertices_after != primitive.vertices_before && may_differ) {
+        if (primitive.vertices_after != primitive.vertices_before && may_differ)
             vertices += fmt::format(" -> {}", primitive.vertices_after);
-        }
         table.addRow({std::to_string(primitive.mesh), std::to_string(primitive.primitive),
                       primitive.mesh_name.empty() ? "-" : printable(primitive.mesh_name),
                       primitive.material_name.empty() ? "-" : printable(primitive.material_name),

@@ -123,9 +123,8 @@ Result<Identification> identifyFile(const std::string& input, const IdentifyOpti
     return atFileBorder([&]() -> Result<Identification> {
         const Scene scene = readScene(input, options.file, false);
         Identification result{.format = scene.format, .generator = scene.generator, .warnings = scene.warnings};
-        for (const ScenePrimitive& primitive : scene.primitives) {
+        for (const ScenePrimitive& primitive : scene.primitives)
             result.primitives.push_back(identify(primitive, options));
-        }
         result.explanations = overAllPrimitives(result.primitives);
         result.verdict = verdictOf(result);
         return result;

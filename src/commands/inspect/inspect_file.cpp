@@ -88,9 +88,8 @@ const char* compressionName(const Document& document, const Primitive& primitive
 }
 
 void describeAttributes(const Document& document, const Primitive& primitive, PrimitiveInfo& info) {
-    for (const auto& [name, accessor] : primitive.attributes) {
+    for (const auto& [name, accessor] : primitive.attributes)
         info.attributes.push_back(name + " " + formatName(readAccessor(document, accessor)));
-    }
     for (const auto& [name, accessor] : primitive.miscounted) {
         const Accessor found = readAccessor(document, accessor);
         info.attributes.push_back(name + " " + formatName(found) + " of " + std::to_string(found.count) + " elements");

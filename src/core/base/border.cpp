@@ -242,12 +242,10 @@ Error checkSpan(const void* data, std::size_t count, std::size_t stride_bytes, s
     }
     // alignment: 4 for floats and 32-bit indices; otherwise the size of the index
     const std::size_t alignment = element_bytes % 4 == 0 ? 4 : element_bytes;
-    if (reinterpret_cast<std::uintptr_t>(data) % alignment != 0 || (count > 1 && stride_bytes % alignment != 0)) {
+    if (reinterpret_cast<std::uintptr_t>(data) % alignment != 0 || (count > 1 && stride_bytes % alignment != 0))
         return makeError(ErrorCode::misaligned, kNoElement, "%s is not aligned to %zu bytes", name, alignment);
-    }
-    if (count > 1 && (count - 1) > (std::numeric_limits<std::size_t>::max() - element_bytes) / stride_bytes) {
+    if (count > 1 && (count - 1) > (std::numeric_limits<std::size_t>::max() - element_bytes) / stride_bytes)
         return makeError(ErrorCode::tooLarge, kNoElement, "%s with its stride exceeds the address space", name);
-    }
     return fine();
 }
 
@@ -257,9 +255,8 @@ Error checkIndices(const IndexView& indices, std::size_t vertex_count, Parallel*
 }
 
 Error checkMesh(const MeshView& mesh, Parallel* parallel) {
-    if (mesh.positions.count > kMaxCorners || mesh.indices.count > kMaxCorners) {
+    if (mesh.positions.count > kMaxCorners || mesh.indices.count > kMaxCorners)
         return {ErrorCode::tooLarge, "the mesh has more than 2^31-1 vertices or corners"};
-    }
     if (Error e = checkSpan(mesh.positions, kAnyCount, "positions"); e.code != ErrorCode::ok) return e;
     if (Error e = checkIndexSpan(mesh.indices, "indices"); e.code != ErrorCode::ok) return e;
     const auto check = [&](const auto& span, const IndexView& indices, const char* name, const char* indices_name) {

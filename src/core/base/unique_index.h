@@ -81,9 +81,8 @@ class UniqueIndex {
 
     std::size_t findSlot(const Key& key) const {
         std::size_t slot = hash(key) & (slots_.size() - 1);
-        while (slots_[slot] != kEmpty && std::memcmp(&keys_[slots_[slot]], &key, sizeof(Key)) != 0) {
+        while (slots_[slot] != kEmpty && std::memcmp(&keys_[slots_[slot]], &key, sizeof(Key)) != 0)
             slot = (slot + 1) & (slots_.size() - 1);
-        }
         return slot;
     }
 

@@ -73,9 +73,8 @@ MeshView toMesh(const tspace_Mesh& given) {
 
 Error checkMesh(const tspace_Mesh* mesh) {
     if (Error error = checkRequired(mesh, "mesh"); error.code != ErrorCode::ok) return error;
-    if (mesh->face_sizes == nullptr && mesh->face_count != 0) {
+    if (mesh->face_sizes == nullptr && mesh->face_count != 0)
         return {ErrorCode::nullData, "mesh.face_sizes is null, but mesh.face_count is not 0"};
-    }
     return {ErrorCode::ok};
 }
 
@@ -93,13 +92,11 @@ Convention toConvention(const tspace_Convention& convention) { return std::bit_c
 Error checkExecution(const tspace_Execution* given) {
     if (Error error = checkSized(given, "execution"); error.code != ErrorCode::ok) return error;
     const tspace_Execution execution = givenOrDefault(given);
-    if (execution.executor != nullptr && execution.executor->run == nullptr) {
+    if (execution.executor != nullptr && execution.executor->run == nullptr)
         return {ErrorCode::nullData, "the function execution.executor.run is null"};
-    }
     const tspace_Allocator* allocator = execution.allocator;
-    if (allocator != nullptr && (allocator->allocate == nullptr || allocator->release == nullptr)) {
+    if (allocator != nullptr && (allocator->allocate == nullptr || allocator->release == nullptr))
         return {ErrorCode::nullData, "execution.allocator requires both functions, allocate and release"};
-    }
     return {ErrorCode::ok};
 }
 
@@ -107,12 +104,10 @@ Hooks::Hooks(const tspace_Execution* given) {
     const tspace_Execution execution = givenOrDefault(given);
     thread_count_ = execution.thread_count;
     simd_ = static_cast<SimdTarget>(execution.simd);
-    if (const tspace_Executor* executor = execution.executor; executor != nullptr) {
+    if (const tspace_Executor* executor = execution.executor; executor != nullptr)
         executor_ = {executor->run, executor->user, std::max(executor->concurrency, 1u)};
-    }
-    if (const tspace_Allocator* allocator = execution.allocator; allocator != nullptr) {
+    if (const tspace_Allocator* allocator = execution.allocator; allocator != nullptr)
         allocator_ = {allocator->allocate, allocator->release, allocator->user};
-    }
 }
 
 Execution Hooks::execution() const {

@@ -33,9 +33,8 @@ tspace_ErrorCode tspace_findConvention(const char* name, tspace_Convention* out,
     return atCBorder(error, [&]() -> Result<Done> {
         if (name == nullptr || out == nullptr) return Error{ErrorCode::nullData, "name and out must not be null"};
         const Convention* convention = findConvention(name);
-        if (convention == nullptr) {
+        if (convention == nullptr)
             return makeError(ErrorCode::invalidOption, kNoElement, "unknown convention \"%s\"", name);
-        }
         *out = std::bit_cast<tspace_Convention>(*convention);
         return Done{};
     });

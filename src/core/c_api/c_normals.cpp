@@ -28,9 +28,8 @@ Error checkOptions(const tspace_NormalOptions* given) {
 NormalOptions toOptions(const tspace_NormalOptions& options) {
     NormalOptions result;
     copyFields(options, result);
-    if (options.smoothing_groups != nullptr) {
+    if (options.smoothing_groups != nullptr)
         result.smoothing_groups = {options.smoothing_groups, options.smoothing_group_count};
-    }
     return result;
 }
 

@@ -105,9 +105,8 @@ void writeCorners(const SMikkTSpaceContext* context, const Corners& corners, con
                 calls.m_setTSpace(context, &tangent.x, &out.bitangents[corner].x, out.magnitudes_s[corner],
                                   out.magnitudes_t[corner], tangent.w > 0.0f ? 1 : 0, corners.face_numbers[i], local);
             }
-            if (calls.m_setTSpaceBasic != nullptr) {
+            if (calls.m_setTSpaceBasic != nullptr)
                 calls.m_setTSpaceBasic(context, &tangent.x, tangent.w, corners.face_numbers[i], local);
-            }
         }
     }
 }

@@ -23,17 +23,15 @@ namespace {
 constexpr std::uint64_t kSlow = 4;
 
 Error checkOptions(const MeshView& mesh, const NormalOptions& options) {
-    if (static_cast<std::uint32_t>(options.weighting) > static_cast<std::uint32_t>(NormalWeighting::best)) {
+    if (static_cast<std::uint32_t>(options.weighting) > static_cast<std::uint32_t>(NormalWeighting::best))
         return {ErrorCode::invalidOption, "weighting is not a value of NormalWeighting"};
-    }
     if (!((options.crease_angle_deg >= 0 && options.crease_angle_deg <= 180) ||
           options.crease_angle_deg == NormalOptions::crease_auto)) {
         return {ErrorCode::invalidOption, "crease_angle_deg must be from 0 to 180, or crease_auto"};
     }
     if (options.refine > 2) return {ErrorCode::invalidOption, "refine must be 0, 1 or 2"};
-    if (!((options.denoise >= 0 && options.denoise <= 4) || options.denoise == NormalOptions::denoise_auto)) {
+    if (!((options.denoise >= 0 && options.denoise <= 4) || options.denoise == NormalOptions::denoise_auto))
         return {ErrorCode::invalidOption, "denoise must be from 0 to 4, or denoise_auto"};
-    }
     if (Error e = checkWeldDistance(options.weld_distance); e.code != ErrorCode::ok) return e;
     if (!options.smoothing_groups.empty()) {
         const StridedSpan<const std::uint32_t> groups = options.smoothing_groups;

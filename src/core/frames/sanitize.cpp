@@ -180,9 +180,7 @@ class Sanitizer {
         if (mesh_.face_sizes.empty()) return;
         block_corners_ = Buffer<std::uint32_t>(allocator_, candidates_.size());
         forEachFace(mesh_, [&](std::size_t face, std::size_t first, std::uint32_t) {
-            if (face % kFacesPerBlock == 0) {
-                block_corners_[face / kFacesPerBlock] = static_cast<std::uint32_t>(first);
-            }
+            if (face % kFacesPerBlock == 0) block_corners_[face / kFacesPerBlock] = static_cast<std::uint32_t>(first);
         });
     }
 
@@ -404,9 +402,8 @@ class Sanitizer {
 
 Error check(const MeshView& mesh, const StridedSpan<Vec4>& tangents) {
     if (Result<Done> valid = validate(mesh); !valid) return std::move(valid).error();
-    if (mesh.normals.empty() && mesh.vertexCount() != 0) {
+    if (mesh.normals.empty() && mesh.vertexCount() != 0)
         return {ErrorCode::missingAttribute, "sanitize needs normals, but the mesh has none"};
-    }
     return checkSpan(tangents, mesh.cornerCount(), "tangents");
 }
 

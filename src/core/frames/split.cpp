@@ -264,9 +264,8 @@ Error checkAttributes(AttributeSpan attributes, std::size_t corner_count) {
 
 Error check(const IndexView& indices, std::size_t vertex_count, std::size_t corner_count, AttributeSpan attributes,
             const Execution& execution) {
-    if (vertex_count > kMaxCorners || corner_count > kMaxCorners) {
+    if (vertex_count > kMaxCorners || corner_count > kMaxCorners)
         return {ErrorCode::tooLarge, "the mesh has more than 2^31-1 vertices or corners"};
-    }
     Parallel parallel(execution, corner_count);
     if (Error e = checkIndices(indices, vertex_count, &parallel); e.code != ErrorCode::ok) return e;
     if (indices.type == IndexType::none && corner_count > vertex_count) {

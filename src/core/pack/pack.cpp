@@ -272,9 +272,8 @@ Result<PackReport> packFrames(StridedSpan<const Vec3> normals, StridedSpan<const
 Result<Done> unpackFrames(std::span<const std::byte> bytes, FrameFormat format, StridedSpan<Vec3> normals,
                           StridedSpan<Vec4> tangents) {
     return atBorder([&]() -> Result<Done> {
-        if (Error e = pack::check(format, normals, tangents, bytes.data(), bytes.size()); e.code != ErrorCode::ok) {
+        if (Error e = pack::check(format, normals, tangents, bytes.data(), bytes.size()); e.code != ErrorCode::ok)
             return e;
-        }
         pack::unpack(*pack::formatOf(format), SimdTarget::best, bytes.data(), normals, tangents);
         return Done{};
     });

@@ -233,9 +233,8 @@ void searchPlaces(Places& places, const FrameBlock& frames, Codes& best) {
         Cells cells = bestAround(
             {scale * load(places.p[0] + at), scale * load(places.p[1] + at), scale * load(places.p[2] + at)});
         const Mask may_be_twin = cells.error < broadcast(kTwinError);
-        if (bitsOf(may_be_twin) != 0) {
+        if (bitsOf(may_be_twin) != 0)
             cells.error = select(may_be_twin, decodedErrors(cells, places, at, frames), cells.error);
-        }
         const Bits column = product(load(places.chart + at), kColumns) + wholeBits(cells.x);
         const Bits row = product(column, kRows) + shiftRight<1>(wholeBits(cells.twice_y));
         store(codes + at, product(row, kColumns) + wholeBits(cells.z));
@@ -262,9 +261,8 @@ void encodeRotations(const FrameBlock& frames, std::size_t count, WordBlock& wor
         if (places.count + kBlockFrames > Places::kMost) searchPlaces(places, frames, best);
     }
     searchPlaces(places, frames, best);
-    for (std::size_t at = 0; at < count; at += kWidth) {
+    for (std::size_t at = 0; at < count; at += kWidth)
         store(words.word[0] + at, shiftLeft<1>(load(best.code + at)) | load(frames.mirrored + at));
-    }
 }
 
 }  // namespace

@@ -155,12 +155,10 @@ Error checkInput(const MeshView& mesh, const TangentOptions& options, Parallel& 
     if (Error e = checkMesh(mesh, &parallel); e.code != ErrorCode::ok) return e;
     if (mesh.vertexCount() == 0) return {ErrorCode::ok, {}};
     if (mesh.normals.empty()) return {ErrorCode::missingAttribute, "tangents need normals, but the mesh has none"};
-    if (mesh.uvs.empty() && options.method != Method::basis) {
+    if (mesh.uvs.empty() && options.method != Method::basis)
         return {ErrorCode::missingAttribute, "this method needs UVs, but the mesh has none"};
-    }
-    if (isGrouped(options.method) && 3 * mikk::countTriangles(mesh, options.ngons) > mikk::kMaxHalfEdges) {
+    if (isGrouped(options.method) && 3 * mikk::countTriangles(mesh, options.ngons) > mikk::kMaxHalfEdges)
         return {ErrorCode::tooLarge, "the mesh has more than 715827882 triangles"};
-    }
     return {ErrorCode::ok, {}};
 }
 

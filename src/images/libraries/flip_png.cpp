@@ -126,12 +126,10 @@ Result<FlippedPng> flipPng(ByteSpan bytes) {
     if (!read) return read.error();
     const std::vector<Chunk>& chunks = *read;
     const PngHeader header = pngHeader(chunks.front().data);
-    if ((header.color & PngHeader::kHasColor) == 0) {
+    if ((header.color & PngHeader::kHasColor) == 0)
         return Error{ErrorCode::unsupportedFile, "the PNG is gray, so it has no separate green channel"};
-    }
-    if (std::any_of(chunks.begin(), chunks.end(), [](const Chunk& chunk) { return chunk.type == "acTL"; })) {
+    if (std::any_of(chunks.begin(), chunks.end(), [](const Chunk& chunk) { return chunk.type == "acTL"; }))
         return Error{ErrorCode::unsupportedFile, "the PNG is animated, which is not supported"};
-    }
     if (header.color == PngHeader::kPalette) {
         // The samples of an image with a palette are indices and stay unchanged; the palette is inverted.
         if (Error error = checkPixels(bytes, header); error.code != ErrorCode::ok) return error;

@@ -78,17 +78,15 @@ Result<ChannelImage> readJpegPixels(ByteSpan bytes) {
     const Decompressor decompressor = makeDecompressor();
     const JpegHead head = readHead(decompressor, bytes);
     if (head.size.pixels() == 0) return Error{ErrorCode::invalidFile, "the JPEG is damaged"};
-    if (head.color_space == TJCS_GRAY) {
+    if (head.color_space == TJCS_GRAY)
         return Error{ErrorCode::unsupportedFile, "the JPEG is gray, so it has no separate green channel"};
-    }
     if (head.isForPrint()) {
         return Error{ErrorCode::unsupportedFile,
                      "the JPEG is CMYK (for print), which is not supported; convert it to RGB"};
     }
     ChannelImage image{head.size.width, head.size.height, 3, {}};
-    if (!decompress(decompressor, bytes, head.size, image.pixels)) {
+    if (!decompress(decompressor, bytes, head.size, image.pixels))
         return Error{ErrorCode::invalidFile, "the JPEG is damaged"};
-    }
     return image;
 }
 

@@ -212,9 +212,8 @@ std::optional<RgbImage> decodePng(ByteSpan bytes, std::uint64_t most_pixels, std
     if (!openPng(bytes, most_pixels, context, header, why)) return {};
     const ImageSize size{header.width, header.height};
     std::size_t byte_count = 0;
-    if (spng_decoded_image_size(context.get(), SPNG_FMT_RGB8, &byte_count) != 0 || byte_count != 3 * size.pixels()) {
+    if (spng_decoded_image_size(context.get(), SPNG_FMT_RGB8, &byte_count) != 0 || byte_count != 3 * size.pixels())
         return {};
-    }
     RgbImage image{size.width, size.height, std::vector<std::uint8_t>(byte_count)};
     if (!succeeds(spng_decode_image(context.get(), image.rgb.data(), byte_count, SPNG_FMT_RGB8, 0))) return {};
     return image;

@@ -71,9 +71,8 @@ std::uint64_t hashOf(const MapSide& side, std::size_t triangle, bool with_positi
 
 Buffer<HashedTriangle> sorted(const MapSide& side, bool with_positions, const Allocator* allocator) {
     Buffer<HashedTriangle> list(allocator, side.uvs.count / 3);
-    for (std::size_t i = 0; i < list.size(); ++i) {
+    for (std::size_t i = 0; i < list.size(); ++i)
         list[i] = {hashOf(side, i, with_positions), static_cast<std::uint32_t>(i)};
-    }
     sortList(list.begin(), list.end(), [](const HashedTriangle& a, const HashedTriangle& b) {
         return a.hash != b.hash ? a.hash < b.hash : a.triangle < b.triangle;
     });
@@ -176,9 +175,8 @@ class Conversion {
             if (progress) progress("converting texels", first, tasks);
             parallel_.forTasks(std::min(kTasksOfStep, tasks - first), [&](std::size_t task) {
                 const std::size_t begin = (first + task) * kTexelsOfTask;
-                for (std::size_t i = begin; i < std::min(begin + kTexelsOfTask, texels); ++i) {
+                for (std::size_t i = begin; i < std::min(begin + kTexelsOfTask, texels); ++i)
                     convert(i, sums[first + task]);
-                }
             });
         }
         Sums all;
@@ -204,9 +202,8 @@ class Conversion {
         auto other_places = findTexelTriangles(others, map_.width, map_.height, padding, parallel_, allocator_);
         if (!other_places) return false;
         other_places_ = std::move(*other_places);
-        if (other_places_.counts.overlapping > 0 && !main_.positions.empty() && !other_.positions.empty()) {
+        if (other_places_.counts.overlapping > 0 && !main_.positions.empty() && !other_.positions.empty())
             chooseByPosition(main_, triangles, places_, other_, others, other_places_, allocator_);
-        }
         return true;
     }
 
@@ -386,21 +383,18 @@ const Error kFine{ErrorCode::ok};
 Error checkSide(const MapSide& side, const MapSide& other, const char* missing) {
     const std::size_t corners = side.uvs.count;
     if (Error error = checkSpan(side.uvs, kAnyCount, "uvs"); error.code != ErrorCode::ok) return error;
-    if (corners % 3 != 0 || corners / 3 >= kNoTriangle / 3) {
+    if (corners % 3 != 0 || corners / 3 >= kNoTriangle / 3)
         return makeError(ErrorCode::countMismatch, kNoElement, "uvs must have three entries per triangle");
-    }
     if (!side.positions.empty()) {
         if (Error error = checkSpan(side.positions, corners, "positions"); error.code != ErrorCode::ok) return error;
     }
     const MapReading& reading = side.reading;
-    if (!std::isfinite(reading.scale) || reading.scale == 0) {
+    if (!std::isfinite(reading.scale) || reading.scale == 0)
         return makeError(ErrorCode::invalidOption, kNoElement, "the scale of a map must be finite and not 0");
-    }
     if (side.space == MapSpace::object) {
         const std::size_t triangles = (corners != 0 && other.space == MapSpace::object ? corners : other.uvs.count) / 3;
-        if (!side.axes.empty() && side.axes.size() != triangles) {
+        if (!side.axes.empty() && side.axes.size() != triangles)
             return makeError(ErrorCode::countMismatch, kNoElement, "axes must have one entry per triangle");
-        }
         return kFine;
     }
     if (corners == 0) {
@@ -420,15 +414,12 @@ Error checkSide(const MapSide& side, const MapSide& other, const char* missing) 
 Error checkCall(const MapImage& map, const MapSide& from, const MapSide& to, std::span<Vec3> out,
                 const ConvertMapOptions& options) {
     const std::uint64_t texels = std::uint64_t{map.width} * map.height;
-    if (texels == 0 || texels >> 32 != 0) {
+    if (texels == 0 || texels >> 32 != 0)
         return makeError(ErrorCode::tooLarge, kNoElement, "the number of texels of an image must be from 1 to 2^32-1");
-    }
-    if (map.texels.size() != texels || out.size() != texels) {
+    if (map.texels.size() != texels || out.size() != texels)
         return makeError(ErrorCode::countMismatch, kNoElement, "texels must have width * height entries");
-    }
-    if (options.bits != 8 && options.bits != 16 && options.bits != 32) {
+    if (options.bits != 8 && options.bits != 16 && options.bits != 32)
         return makeError(ErrorCode::invalidOption, kNoElement, "bits must be 8, 16 or 32");
-    }
     if (Error error =
             checkSide(from, to, "`from` has no mesh; set the UVs, normals and tangents for which the map was made");
         error.code != ErrorCode::ok) {

@@ -103,9 +103,8 @@ MeasurePoints MeasurePoints::spread(const MapSurfaces& surfaces, std::uint32_t c
 void MeasurePoints::findBorders(const LowPoly& low) {
     const std::size_t count = low.positions.count;
     std::vector<std::uint64_t> edges(count);
-    for (std::size_t corner = 0; corner < count; ++corner) {
+    for (std::size_t corner = 0; corner < count; ++corner)
         edges[corner] = hashEdge(low, corner, corner % 3 == 2 ? corner - 2 : corner + 1);
-    }
     std::vector<std::uint64_t> sorted = edges;
     std::sort(sorted.begin(), sorted.end());
     borders_.assign(count / 3, 0);

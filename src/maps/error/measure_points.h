@@ -58,9 +58,7 @@ class SampleBands {
           n_(n), shift_(shift), begin_(allocator, bandCount() + 1, std::size_t{0}),
           marks_(allocator, bandCount(), std::size_t{0}) {
         const std::size_t count = triangles.corners.size() / 3;
-        for (std::size_t i = 0; i < count; ++i) {
-            forBands(i, [&](std::size_t band) { ++begin_[band]; });
-        }
+        for (std::size_t i = 0; i < count; ++i) forBands(i, [&](std::size_t band) { ++begin_[band]; });
         std::size_t total = 0;
         for (std::size_t band = 0; band <= bandCount(); ++band) total += std::exchange(begin_[band], total);
         entries_ = Buffer<std::uint32_t>(allocator, total);

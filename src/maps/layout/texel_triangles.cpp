@@ -263,9 +263,8 @@ void forNeighbors(const TriangleSearch& search, std::size_t texel, const Visit& 
         for (int dx = -1; dx <= 1; ++dx) {
             const std::size_t column = neighbor(x + dx, search.shape.width, search.shape.wrap_u);
             const std::size_t row = neighbor(y + dy, search.shape.height, search.shape.wrap_v);
-            if ((dx != 0 || dy != 0) && column < search.shape.width && row < search.shape.height) {
+            if ((dx != 0 || dy != 0) && column < search.shape.width && row < search.shape.height)
                 visit(row * search.shape.width + column, dx, dy);
-            }
         }
     }
 }

@@ -22,9 +22,8 @@ std::uint64_t bitsOf(std::uint32_t begin, std::uint32_t end) {
 /// Calls work(word, bits) for each word of the texels `begin` to `end` - 1 of a row.
 template <class Work>
 void forWords(std::uint32_t begin, std::uint32_t end, const Work& work) {
-    for (std::uint32_t word = begin / 64; word * 64 < end; ++word) {
+    for (std::uint32_t word = begin / 64; word * 64 < end; ++word)
         work(word, bitsOf(word == begin / 64 ? begin % 64 : 0, std::min(end - word * 64, 64U)));
-    }
 }
 
 }  // namespace

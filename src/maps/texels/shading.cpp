@@ -64,9 +64,8 @@ ShadingFrame shadingFrame(const CornerFrames& corners, const std::array<double, 
         }
         frame.bitangent = sign * cross(frame.normal, frame.tangent);
     }
-    if (reading.unit_vectors) {
+    if (reading.unit_vectors)
         frame = {unitOrSame(frame.tangent), unitOrSame(frame.bitangent), unitOrSame(frame.normal)};
-    }
     return frame;
 }
 

@@ -160,9 +160,8 @@ void applySparse(const Document& document, const Accessor& accessor, std::uint8_
                                            (sparse.count - 1) * accessor.element_bytes + accessor.data_bytes);
     for (std::size_t i = 0; i < sparse.count; ++i) {
         const std::uint32_t at = unsignedAt(indices + i * bytesOf(sparse.index_type), sparse.index_type);
-        if (at >= accessor.count) {
+        if (at >= accessor.count)
             failAt("the sparse index " + std::to_string(at) + " is out of range", accessor.place() + "/sparse/indices");
-        }
         std::memcpy(elements + at * accessor.element_bytes, values + i * accessor.element_bytes, accessor.data_bytes);
     }
 }
@@ -170,9 +169,8 @@ void applySparse(const Document& document, const Accessor& accessor, std::uint8_
 /// Returns the address of the elements; null if they are all zero. Fails if their data is not available, if there are
 /// too many zero elements, and for unknown types.
 const std::uint8_t* elementSource(const Document& document, const Accessor& accessor) {
-    if (accessor.component_count == 0) {
+    if (accessor.component_count == 0)
         failAt("the accessor type " + inQuotes(accessor.type) + " does not exist", join(accessor.place(), "type"));
-    }
     if (const auto decoded = document.elements.find(accessor.index); decoded != document.elements.end())
         return decoded->second.data();
     if (document.hidden_accessors.count(accessor.index) != 0) {
@@ -196,9 +194,8 @@ void pack(const Accessor& accessor, const std::uint8_t* source, std::uint8_t* el
         return;
     }
     withElementSize(accessor.data_bytes, [&](auto size) {
-        for (std::size_t i = 0; i < accessor.count; ++i) {
+        for (std::size_t i = 0; i < accessor.count; ++i)
             std::memcpy(elements + i * accessor.element_bytes, source + i * accessor.stride, size);
-        }
     });
 }
 
@@ -254,9 +251,8 @@ std::vector<Vec> decodeVec(const Document& document, const Accessor& accessor, c
     std::vector<Vec> result(accessor.count);
     const std::size_t bytes = bytesOf(accessor.component);
     auto* out = reinterpret_cast<float*>(result.data());
-    for (std::size_t i = 0; i < accessor.count * components; ++i) {
+    for (std::size_t i = 0; i < accessor.count * components; ++i)
         out[i] = componentAt(elements.data() + i * bytes, accessor.component, accessor.normalized);
-    }
     return result;
 }
 
@@ -276,9 +272,8 @@ BufferView readBufferView(const Document& document, std::size_t index) {
     const std::size_t limit = data.source == BufferSource::absent
                                   ? readSize(rootArray(document, "buffers")[view.buffer], "byteLength", "/buffers")
                                   : data.bytes.size();
-    if (view.begin > limit || view.byte_count > limit - view.begin) {
+    if (view.begin > limit || view.byte_count > limit - view.begin)
         failAt("the buffer view extends beyond its buffer of " + std::to_string(limit) + " bytes", place);
-    }
     return view;
 }
 
@@ -310,13 +305,11 @@ Accessor readAccessor(const Document& document, std::size_t index) {
                        std::to_string(accessor.stride),
                    join(join("/bufferViews", *accessor.view), "byteStride"));
         }
-        if (accessor.component_count > 0) {
+        if (accessor.component_count > 0)
             checkRange(view, accessor.byte_offset, accessor.count, accessor.stride, accessor.data_bytes, place);
-        }
     }
-    if (const Json* sparse = readObject(object, "sparse", place)) {
+    if (const Json* sparse = readObject(object, "sparse", place))
         accessor.sparse = readSparse(document, *sparse, accessor, join(place, "sparse"));
-    }
     return accessor;
 }
 
@@ -362,9 +355,8 @@ std::vector<Vec4> decodeVec4(const Document& document, const Accessor& accessor,
 
 std::vector<std::uint32_t> decodeIndices(const Document& document, const Accessor& accessor, std::size_t vertex_count,
                                          const std::string& place) {
-    if (!isUnsigned(accessor.component) || accessor.component_count != 1 || accessor.normalized) {
+    if (!isUnsigned(accessor.component) || accessor.component_count != 1 || accessor.normalized)
         failAt("indices must be unsigned scalars, not " + formatName(accessor), place);
-    }
     Bytes packed;
     std::optional<ElementView> elements = viewElements(document, accessor);
     if (!elements) {

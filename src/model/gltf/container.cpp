@@ -79,9 +79,8 @@ GlbChunks readGlb(std::span<const std::uint8_t> file) {
         if (file.size() - at < kChunkHeadBytes || length > file.size() - at - kChunkHeadBytes)
             failGlb("a chunk extends beyond the end of the GLB", at);
         const auto bytes = file.subspan(at + kChunkHeadBytes, length);
-        if ((number == 0) != (type == kJsonType)) {
+        if ((number == 0) != (type == kJsonType))
             failGlb(number == 0 ? "the first chunk of the GLB is not JSON" : "the GLB has a second JSON chunk", at);
-        }
         if (type == kBinType) {
             if (chunks.bin) failGlb("the GLB has a second BIN chunk", at);
             if (number != 1) failGlb("the BIN chunk of the GLB is not its second chunk", at);
@@ -330,9 +329,8 @@ void copyNamedFiles(const Document& document, const OutputTarget& target, Atomic
         copyNamedFile(document, target, readString(buffers[i], "uri", ""), join("/buffers", i), output, warnings);
     }
     const Json& images = rootArray(document, "images");
-    for (std::size_t i = 0; i < images.size(); ++i) {
+    for (std::size_t i = 0; i < images.size(); ++i)
         copyNamedFile(document, target, readString(images[i], "uri", ""), join("/images", i), output, warnings);
-    }
 }
 
 std::span<const std::uint8_t> bytesOf(const std::string& text) {
@@ -373,9 +371,8 @@ std::string freeFileName(const Document& document, const OutputTarget& target, c
     const std::string stem = stemOf(target.path);
     const std::size_t dot = ending.rfind('.');
     std::string name = stem + ending;
-    for (int number = 2; referencesFile(document, name); ++number) {
+    for (int number = 2; referencesFile(document, name); ++number)
         name = stem + ending.substr(0, dot) + "-" + std::to_string(number) + ending.substr(dot);
-    }
     return name;
 }
 
@@ -448,9 +445,8 @@ void writeDocument(Document& document, const OutputTarget& target, AtomicOutput&
         }
         output.add(target.path, bytesOf(writeJson(document.json, document.style)));
         for (const Buffer& buffer : document.buffers) {
-            if (buffer.source == BufferSource::file && buffer.own && (buffer.edited || !target.in_place)) {
+            if (buffer.source == BufferSource::file && buffer.own && (buffer.edited || !target.in_place))
                 output.add(pathNextToTarget(target, buffer.path), buffer.bytes.pieces(), execution);
-            }
         }
     }
     copyNamedFiles(document, target, output, warnings);
@@ -461,9 +457,8 @@ void writeUnchanged(const Document& document, const OutputTarget& target, Atomic
     if (target.in_place) return noteMissingImages(document, target, warnings);
     output.add(target.path, document.file_bytes);
     for (const Buffer& buffer : document.buffers) {
-        if (buffer.source == BufferSource::file && buffer.own && !target.same_folder) {
+        if (buffer.source == BufferSource::file && buffer.own && !target.same_folder)
             output.add(pathNextToTarget(target, buffer.path), buffer.bytes.pieces());
-        }
     }
     copyNamedFiles(document, target, output, warnings);
 }

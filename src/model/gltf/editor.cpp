@@ -123,9 +123,8 @@ void Editor::overwrite(const Accessor& accessor, const Bytes& elements) {
         buffer.bytes
             .range(view.begin + accessor.byte_offset, (accessor.count - 1) * accessor.stride + accessor.data_bytes)
             .data();
-    for (std::size_t i = 0; i < accessor.count; ++i) {
+    for (std::size_t i = 0; i < accessor.count; ++i)
         std::memcpy(to + i * accessor.stride, elements.data() + i * accessor.element_bytes, accessor.element_bytes);
-    }
     Json& json = document_.json["accessors"][accessor.index];
     ElementData data{.component = accessor.component, .element_bytes = accessor.element_bytes, .bytes = elements};
     for (const auto& [key, bound] : {std::pair{"max", &data.max}, std::pair{"min", &data.min}}) {
@@ -171,9 +170,8 @@ std::size_t Editor::appendBytes(std::size_t index, Bytes bytes, std::size_t elem
     if (stride == element_bytes) return buffer.bytes.append(std::move(bytes), 4);
     const std::size_t count = bytes.size() / element_bytes;
     Bytes spread(count * stride, 0);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i)
         std::memcpy(spread.data() + i * stride, bytes.data() + i * element_bytes, element_bytes);
-    }
     return buffer.bytes.append(std::move(spread), 4);
 }
 

@@ -121,9 +121,8 @@ void makeSparseWhereSmaller(ElementData& data) {
     std::vector<std::uint32_t> places;
     for (std::size_t i = 0; i < data.count; ++i) {
         const std::uint8_t* const element = data.bytes.data() + i * size;
-        if (std::any_of(element, element + size, [](std::uint8_t byte) { return byte != 0; })) {
+        if (std::any_of(element, element + size, [](std::uint8_t byte) { return byte != 0; }))
             places.push_back(static_cast<std::uint32_t>(i));
-        }
     }
     // An accessor without a view and without sparse values is valid and all zero, but Assimp and other readers cannot
     // load it, so one element is kept.
@@ -131,9 +130,8 @@ void makeSparseWhereSmaller(ElementData& data) {
     const std::size_t sparse_bytes = places.size() * (size + sizeof(std::uint32_t)) + kJsonBytes;
     if (2 * places.size() > data.count || sparse_bytes >= data.bytes.size()) return;
     Bytes kept(places.size() * size);
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t i = 0; i < places.size(); ++i)
         std::memcpy(kept.data() + i * size, data.bytes.data() + places[i] * size, size);
-    }
     data.bytes = std::move(kept);
     data.places = std::move(places);
 }

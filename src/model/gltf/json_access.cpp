@@ -168,9 +168,8 @@ const Json& readArray(const Json& object, const char* key, const std::string& pl
     if (value == nullptr) return empty;
     if (!value->is_array()) failJson(std::string("'") + key + "' is not an array", join(place, key));
     for (std::size_t i = 0; of_objects && i < value->size(); ++i) {
-        if (!(*value)[i].is_object()) {
+        if (!(*value)[i].is_object())
             failJson(std::string("an entry of '") + key + "' is not an object", join(join(place, key), i));
-        }
     }
     return *value;
 }

@@ -77,9 +77,8 @@ void checkLooksLikeJson(std::span<const std::uint8_t> text) {
     if (text.empty()) failFile(ErrorCode::invalidFile, "the file is empty", "byte 0");
     if (first != std::string_view::npos && view[first] == '[')
         failFile(ErrorCode::invalidFile, "the top level of the JSON is not an object", "byte 0");
-    if (first == std::string_view::npos || view[first] != '{') {
+    if (first == std::string_view::npos || view[first] != '{')
         failFile(ErrorCode::invalidFile, "the file is neither a GLB nor a glTF JSON file", "byte 0");
-    }
 }
 
 void checkVersion(const Json& root) {

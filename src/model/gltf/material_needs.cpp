@@ -272,9 +272,8 @@ class MaterialUses {
             addTexture(*coat, join(extension_place, "KHR_materials_clearcoat"), "clearcoatNormalTexture",
                        "clearcoatNormalTexture");
         }
-        if (const Json* anisotropy = readObject(*extensions, "KHR_materials_anisotropy", extension_place)) {
+        if (const Json* anisotropy = readObject(*extensions, "KHR_materials_anisotropy", extension_place))
             addAnisotropy(*anisotropy, join(extension_place, "KHR_materials_anisotropy"));
-        }
     }
 
   private:
@@ -452,9 +451,8 @@ void addDifferences(const std::vector<TangentUse>& uses, TextureTransform readin
         if (haveSameTangents(uses[0], use, reading) || ++count > kMaxDifferences) continue;
         notes.push_back("the tangents " + difference(uses[0], use));
     }
-    if (count > kMaxDifferences) {
+    if (count > kMaxDifferences)
         notes.push_back("the tangents do not fit " + std::to_string(count - kMaxDifferences) + " more textures");
-    }
 }
 
 void addTransform(const TangentUse& use, TextureTransform reading, std::vector<std::string>& notes) {

@@ -184,9 +184,8 @@ Bytes gatherUnfiltered(const Document& document, const Accessor& accessor, std::
     Bytes all(total);
     decodeInto(document, *accessor.view, view, all);
     Bytes rows(sources.size() * row);
-    for (std::size_t i = 0; i < sources.size(); ++i) {
+    for (std::size_t i = 0; i < sources.size(); ++i)
         std::memcpy(rows.data() + i * row, all.data() + accessor.byte_offset + sources[i] * accessor.stride, row);
-    }
     return rows;
 }
 

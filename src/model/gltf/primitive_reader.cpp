@@ -25,9 +25,8 @@ AttributeList readAttributes(const Json& object, const std::string& place, std::
     if (object.size() > kMaxAttributes)
         failFile(ErrorCode::unsupportedFile, "more than 1000 attributes are not supported", place);
     AttributeList list;
-    for (const auto& [name, value] : object.items()) {
+    for (const auto& [name, value] : object.items())
         list.emplace_back(name, toIndex(value, join(place, name), accessor_count, "accessor"));
-    }
     return list;
 }
 
@@ -163,18 +162,16 @@ Primitive readPrimitive(const Document& document, const Json& object, std::uint3
     const std::string place = primitive.place();
     const std::size_t accessor_count = rootArray(document, "accessors").size();
     const std::uint64_t mode = readWhole(object, "mode", place, static_cast<std::uint64_t>(Mode::triangles));
-    if (mode > static_cast<std::uint64_t>(Mode::triangleFan)) {
+    if (mode > static_cast<std::uint64_t>(Mode::triangleFan))
         failFile(ErrorCode::invalidFile, "the mode " + std::to_string(mode) + " does not exist", join(place, "mode"));
-    }
     primitive.mode = static_cast<Mode>(mode);
     primitive.indices = readIndex(object, "indices", place, accessor_count, "accessor");
     primitive.material = readIndex(object, "material", place, rootArray(document, "materials").size(), "material");
     primitive.attributes =
         readAttributes(requireObject(object, "attributes", place), join(place, "attributes"), accessor_count);
     const Json& targets = readArray(object, "targets", place);
-    for (std::size_t i = 0; i < targets.size(); ++i) {
+    for (std::size_t i = 0; i < targets.size(); ++i)
         primitive.targets.push_back(readAttributes(targets[i], join(join(place, "targets"), i), accessor_count));
-    }
     if (!primitive.attributes.empty()) {
         const auto position = primitive.find("POSITION");
         primitive.vertex_count = readAccessor(document, position.value_or(primitive.attributes[0].second)).count;

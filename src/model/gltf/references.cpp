@@ -193,9 +193,8 @@ std::vector<std::size_t> countAccessorUses(const Document& document) {
         }
     }
     for (const Json& node : rootArray(document, "nodes")) {
-        if (const Json* instancing = findExtension(node, "EXT_mesh_gpu_instancing")) {
+        if (const Json* instancing = findExtension(node, "EXT_mesh_gpu_instancing"))
             countMembers(uses, findMember(*instancing, "attributes"));
-        }
     }
     return uses;
 }

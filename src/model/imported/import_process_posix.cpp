@@ -63,9 +63,7 @@ Pipe makePipe() {
 #endif
     Descriptor low_read(ends[0]), low_write(ends[1]);
     Pipe pipe;
-    if (made) {
-        pipe = {Descriptor(fcntl(ends[0], F_DUPFD_CLOEXEC, 3)), Descriptor(fcntl(ends[1], F_DUPFD_CLOEXEC, 3))};
-    }
+    if (made) pipe = {Descriptor(fcntl(ends[0], F_DUPFD_CLOEXEC, 3)), Descriptor(fcntl(ends[1], F_DUPFD_CLOEXEC, 3))};
     if (!pipe.read_end.isOpen() || !pipe.write_end.isOpen())
         failFile(ErrorCode::cannotRead, "cannot create a pipe to the importer");
     return pipe;

@@ -109,9 +109,8 @@ void AtomicOutput::commit() {
 }
 
 void AtomicOutput::addSource(const Path& source) {
-    if (std::find(sources_.begin(), sources_.end(), source.string()) == sources_.end()) {
+    if (std::find(sources_.begin(), sources_.end(), source.string()) == sources_.end())
         sources_.push_back(source.string());
-    }
 }
 
 std::vector<std::string> AtomicOutput::files() const {

@@ -109,9 +109,8 @@ UriKind uriKind(std::string_view uri) {
 
 DataUri decodeDataUri(std::string_view uri, const std::string& place) {
     const std::size_t comma = uri.find(',');
-    if (uriKind(uri) != UriKind::data || comma == std::string_view::npos) {
+    if (uriKind(uri) != UriKind::data || comma == std::string_view::npos)
         failFile(ErrorCode::invalidFile, "a data URI has no comma before its data", place);
-    }
     std::string_view header = uri.substr(5, comma - 5);
     const std::string_view data = uri.substr(comma + 1);
     constexpr std::string_view kMark = ";base64";
@@ -177,9 +176,8 @@ std::string checkedPathOfUri(std::string_view uri, bool allow_external, const st
         failFile(ErrorCode::invalidFile, "the URI " + inQuotes(uri, 200) + " has an empty scheme before its colon",
                  place);
     std::string path = pathOfUri(uri);
-    if (path.empty() || path.find('\0') != std::string::npos) {
+    if (path.empty() || path.find('\0') != std::string::npos)
         failFile(ErrorCode::invalidFile, "a URI does not name a file", place);
-    }
     if (allow_external) return path;
     if (const char* why = leadsAway(fs::path{Path(path)})) refuseUri(uri, std::string(why) + kFollowed, place);
     return path;

@@ -46,9 +46,8 @@ BareMesh collectBareFaces(const Model& model, std::span<const std::uint32_t> fac
         mesh.faces.push_back(i);
         mesh.face_sizes.push_back(face.corner_count);
         mesh.smoothing_groups.push_back(face.smoothing_group);
-        for (std::uint32_t c = 0; c < face.corner_count; ++c) {
+        for (std::uint32_t c = 0; c < face.corner_count; ++c)
             mesh.indices.push_back(model.corners[face.first_corner + c].position);
-        }
     }
     return mesh;
 }
@@ -103,9 +102,8 @@ std::vector<ObjPrimitive> collectPrimitives(const Model& model) {
         const Face& face = model.faces[i];
         const bool has_uvs = hasUvs(model, face);
         const std::uint32_t primitive = keys.indexOf({face.shape, face.material, has_uvs});
-        if (primitive == primitives.size()) {
+        if (primitive == primitives.size())
             primitives.push_back({.shape = face.shape, .material = face.material, .has_uvs = has_uvs});
-        }
         primitives[primitive].faces.push_back(i);
     }
     return primitives;

@@ -358,9 +358,8 @@ std::uint32_t currentMaterial(Build& build) {
 void addFace(void* user, tinyobj::index_t* indices, int count) {
     Build& build = buildOf(user);
     Model& model = *build.model;
-    if (build.face_line >= build.notes->faces.size()) {
+    if (build.face_line >= build.notes->faces.size())
         failFile(ErrorCode::internal, "internal error: the OBJ parser found more faces than the first pass");
-    }
     Face face{.first_corner = static_cast<std::uint32_t>(model.corners.size()),
               .corner_count = static_cast<std::uint32_t>(count),
               .smoothing_group = build.notes->faces[build.face_line].smoothing_group,
@@ -502,9 +501,8 @@ void fillMaterials(Model& model, std::vector<Material> library) {
 void requireFaces(const Model& model) {
     constexpr std::uint64_t kTriangleCornerBytes = 128, kPolygonCornerBytes = 200;
     std::uint64_t bytes = 0;
-    for (const Face& face : model.faces) {
+    for (const Face& face : model.faces)
         bytes += face.corner_count * (face.corner_count == 3 ? kTriangleCornerBytes : kPolygonCornerBytes);
-    }
     model.memory->require(bytes, {});
 }
 
@@ -531,9 +529,8 @@ Model readModel(const Path& path, const FileOptions& options) {
     Build build{.model = &model, .notes = &notes};
     parse(text, build);
     std::string().swap(text);
-    if (build.face_line != notes.faces.size()) {
+    if (build.face_line != notes.faces.size())
         failFile(ErrorCode::internal, "internal error: the OBJ parser found fewer faces than the first pass");
-    }
     checkIndices(build);
     if (model.faces.empty()) failFile(ErrorCode::invalidFile, "the OBJ file has no faces");
     requireFaces(model);

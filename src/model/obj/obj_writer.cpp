@@ -161,9 +161,8 @@ Json materialJson(const Material& material, ImageBuilder* images) {
     if (!material.found) return json;
     Json surface = Json::object();
     const Vec3& color = material.base_color;
-    if (material.opacity < 1 || !(color == Vec3{1, 1, 1})) {
+    if (material.opacity < 1 || !(color == Vec3{1, 1, 1}))
         surface["baseColorFactor"] = {color.x, color.y, color.z, material.opacity};
-    }
     if (images != nullptr) images->addReference(material.base_color_texture, surface, "baseColorTexture");
     surface["metallicFactor"] = material.metallic;
     surface["roughnessFactor"] = material.roughness;
@@ -173,9 +172,8 @@ Json materialJson(const Material& material, ImageBuilder* images) {
     } else if (images != nullptr) {
         images->addReference(material.normal_texture, json, "normalTexture");
     }
-    if (material.normal_scale != 1 && json.contains("normalTexture")) {
+    if (material.normal_scale != 1 && json.contains("normalTexture"))
         json["normalTexture"]["scale"] = material.normal_scale;
-    }
     if (!(material.emission == Vec3{})) json["emissiveFactor"] = rgb(material.emission);
     if (material.opacity < 1) json["alphaMode"] = "BLEND";
     return json;

@@ -220,9 +220,8 @@ class EacFormat {
         for (const float step : {1.0F, kBaseStep}) {
             for (int aside = -kAside; aside <= kAside; ++aside) {
                 const Eight origin = onBase(0.5F * (least + most) + kBaseStep * static_cast<float>(aside));
-                for (const float first : {0.0F, 8.0F}) {
+                for (const float first : {0.0F, 8.0F})
                     tryPalettes(origin, step, first + Eight(Eight::Four{0, 1, 2, 3}, Eight::Four{4, 5, 6, 7}));
-                }
             }
         }
     }

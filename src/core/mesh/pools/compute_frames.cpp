@@ -378,9 +378,8 @@ Result<PoolFrames> keepPool(PoolComputation& state) {
     whole.source_vertices.resize(state.pool.positions.count);
     std::iota(whole.source_vertices.begin(), whole.source_vertices.end(), 0u);
     whole.source_corners.assign(state.pool.positions.count, kNoCorner);
-    for (std::size_t c = state.corners.size(); c-- > 0;) {
+    for (std::size_t c = state.corners.size(); c-- > 0;)
         whole.source_corners[state.corners[c]] = static_cast<std::uint32_t>(c);
-    }
     whole.indices.assign(state.corners.begin(), state.corners.end());
     if (frames.differing_count == 0) {
         if (Result<Done> done = computeMorphs(state, whole, false, frames); !done) return std::move(done).error();
@@ -403,9 +402,8 @@ Result<PoolFrames> computePool(PoolComputation& state) {
     if (state.generates_tangents) state.tangent_buffer = Buffer<Vec4>(allocator, corner_count);
     if (state.generates_bitangents) state.bitangent_buffer = Buffer<Vec3>(allocator, corner_count);
     for (std::size_t p = 0; p < state.primitives.size(); ++p) {
-        if (Result<Done> done = computePrimitive(state, state.primitives[p], state.reports[p]); !done) {
+        if (Result<Done> done = computePrimitive(state, state.primitives[p], state.reports[p]); !done)
             return std::move(done).error();
-        }
     }
     return state.pool.kept_tangents.empty() || state.pool.repairs_tangents ? splitPool(state) : keepPool(state);
 }
@@ -426,15 +424,12 @@ Error checkPool(const PoolView& pool, std::span<const PrimitiveGeometry> primiti
         return {ErrorCode::countMismatch,
                 std::to_string(primitives.size()) + " primitives, but " + std::to_string(reports.size()) + " reports"};
     }
-    if (!pool.normals.empty() && pool.normals.count != count) {
+    if (!pool.normals.empty() && pool.normals.count != count)
         return {ErrorCode::countMismatch, "the pool must have as many normals as positions"};
-    }
-    if (!pool.uvs.empty() && pool.uvs.count != count) {
+    if (!pool.uvs.empty() && pool.uvs.count != count)
         return {ErrorCode::countMismatch, "the pool must have as many UVs as positions"};
-    }
-    if (!pool.kept_tangents.empty() && (pool.kept_tangents.size() != count || pool.normals.empty())) {
+    if (!pool.kept_tangents.empty() && (pool.kept_tangents.size() != count || pool.normals.empty()))
         return {ErrorCode::countMismatch, "kept tangents require one normal and one tangent per position"};
-    }
     return {ErrorCode::ok, {}};
 }
 
@@ -443,9 +438,8 @@ Error checkPool(const PoolView& pool, std::span<const PrimitiveGeometry> primiti
 Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<const PrimitiveGeometry> primitives,
                                              const FramesOptions& options, std::span<FramesReport> reports) {
     PoolWithNormals made;
-    if (Result<Done> done = generatePoolNormals(pool, primitives, options, reports, made); !done) {
+    if (Result<Done> done = generatePoolNormals(pool, primitives, options, reports, made); !done)
         return std::move(done).error();
-    }
     PoolView with_normals = made.vertices;
     with_normals.targets = made.targets;
     with_normals.makes_tangents = pool.makes_tangents;
@@ -453,9 +447,8 @@ Result<PoolFrames> computeWithMorphedNormals(const PoolView& pool, std::span<con
     if (!frames) return frames;
     frames->normals_generated = true;
     frames->normals = gather(std::span<const Vec3>(made.vertices.normals), frames->source_vertices);
-    for (std::size_t i = 0; i < pool.targets.count; ++i) {
+    for (std::size_t i = 0; i < pool.targets.count; ++i)
         frames->morphs[i].normals = spread(made.offsets[i], frames->source_vertices, made.source_vertices.size());
-    }
     for (std::uint32_t& source : frames->source_vertices) source = made.source_vertices[source];
     for (FramesReport& report : reports) report.vertices_before = pool.positions.count;
     return frames;

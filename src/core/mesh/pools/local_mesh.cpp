@@ -80,9 +80,7 @@ void LocalMeshes::copyUsedPart(const PrimitiveGeometry& primitive, LocalMesh& me
 std::vector<Vec3> gatherNormals(const std::vector<Vec3>& normals, const std::vector<std::uint32_t>& corners) {
     std::vector<Vec3> result;
     result.reserve(corners.size());
-    for (const std::uint32_t corner : corners) {
-        result.push_back(corner == kNoCorner ? Vec3{0, 0, 1} : normals[corner]);
-    }
+    for (const std::uint32_t corner : corners) result.push_back(corner == kNoCorner ? Vec3{0, 0, 1} : normals[corner]);
     return result;
 }
 

@@ -135,9 +135,8 @@ std::vector<bool> repairCorners(const PoolView& pool, std::span<const std::uint3
         const bool needs_deltas = (parts & repair::kDeltas) != 0;
         bool is_new =
             (parts & repair::kWhole) != 0 || !hasDirection(pool.kept_tangents[corners[c]], pool.normals[corners[c]]);
-        if ((parts & repair::kSides) != 0 && determinesSign(pool, corners, c)) {
+        if ((parts & repair::kSides) != 0 && determinesSign(pool, corners, c))
             is_new = is_new || (stays.w > 0) != (computed.w > 0) || !isNear(stays, computed);
-        }
         // Deltas are valid only for the direction that they were computed for.
         is_new = is_new || (needs_deltas && !isNear(stays, computed));
         tangents[c] = is_new ? computed : stays;

@@ -360,9 +360,8 @@ VertexOffsets spread(const VertexOffsets& offsets, std::span<const std::uint32_t
     if (offsets.vertices.empty() || old_count == sources.size()) return result;
     // 1-based position of each vertex in offsets.vertices; 0: none
     std::vector<std::uint32_t> places(sources.size(), 0);
-    for (std::size_t i = 0; i < offsets.vertices.size(); ++i) {
+    for (std::size_t i = 0; i < offsets.vertices.size(); ++i)
         places[offsets.vertices[i]] = static_cast<std::uint32_t>(i + 1);
-    }
     for (std::size_t v = old_count; v < sources.size(); ++v) {
         places[v] = places[sources[v]];
         if (places[v] == 0) continue;

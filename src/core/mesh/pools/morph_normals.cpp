@@ -113,9 +113,8 @@ class PoolNormals {
         offsets->positions = gather(std::span<const Vec3>(offsets->positions), result.source_vertices);
         const VertexOffsets& normals = result.offsets[target];
         offsets->normals.assign(result.source_vertices.size(), Vec3{});
-        for (std::size_t i = 0; i < normals.vertices.size(); ++i) {
+        for (std::size_t i = 0; i < normals.vertices.size(); ++i)
             offsets->normals[normals.vertices[i]] = normals.offsets[i];
-        }
         return offsets;
     }
 

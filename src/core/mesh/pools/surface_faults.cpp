@@ -166,9 +166,7 @@ class Sheets {
 WindingCounts countWinding(const StridedSpan<const Vec3>& positions, std::span<const std::uint32_t> corners) {
     UniqueIndex<std::array<std::uint32_t, 3>> places(positions.count);
     std::vector<std::uint32_t> points(corners.size());
-    for (std::size_t c = 0; c < corners.size(); ++c) {
-        points[c] = places.indexOf(positionKey(positions[corners[c]]));
-    }
+    for (std::size_t c = 0; c < corners.size(); ++c) points[c] = places.indexOf(positionKey(positions[corners[c]]));
     std::vector<EdgeUse> edges;
     edges.reserve(corners.size());
     const auto triangle_count = static_cast<std::uint32_t>(corners.size() / 3);

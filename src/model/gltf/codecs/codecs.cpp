@@ -24,9 +24,8 @@ std::string dracoHeaderFault(std::span<const std::uint8_t> data) {
                                      [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
     if (!is_draco) return "the data is not Draco data";
     const std::uint8_t major = data[kVersionAt], minor = data[kVersionAt + 1];
-    if (major != 2 || minor != 2) {
+    if (major != 2 || minor != 2)
         return "the Draco data has version " + std::to_string(major) + "." + std::to_string(minor) + ", not 2.2";
-    }
     if (data[kGeometryAt] != kTriangularMesh) return "the Draco data does not contain a triangle mesh";
     if (data[kMethodAt] != kSequential && data[kMethodAt] != kEdgebreaker)
         return "the Draco data uses an unknown encoding method";

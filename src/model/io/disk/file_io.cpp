@@ -54,16 +54,13 @@ Bytes readFile(const Path& name, const std::string& place, const Execution& exec
     if (error) fail_open(error.message());
     if (fs::is_directory(status)) failFile(code, pathInQuotes(name) + " is a folder", place);
     // Reading pipes and devices could block or never end.
-    if (!fs::is_regular_file(status)) {
-        failFile(code, pathInQuotes(name) + " is not a regular file", place);
-    }
+    if (!fs::is_regular_file(status)) failFile(code, pathInQuotes(name) + " is not a regular file", place);
     const std::uintmax_t size = fs::file_size(path, error);
     const CFile file = error ? nullptr : openFile(name, "rb");
     if (!file) fail_open(error ? error.message() : std::strerror(errno));
     Bytes bytes(static_cast<std::size_t>(size));
-    if (!readSteps(file.get(), bytes, execution)) {
+    if (!readSteps(file.get(), bytes, execution))
         failFile(code, "cannot read the whole file " + pathInQuotes(name), place);
-    }
     return bytes;
 }
 
@@ -105,9 +102,8 @@ Path resolveUri(const Path& in_folder, std::string_view uri, bool allow_external
         failFile(ErrorCode::invalidFile,
                  "the URI " + inQuotes(uri, 200) + " cannot name a file: " + failure.code().message(), place);
     }
-    if (!allow_external && !isBelow(root, file)) {
+    if (!allow_external && !isBelow(root, file))
         refuseUri(uri, std::string("leads outside the folder of the model through a symbolic link") + kFollowed, place);
-    }
     return folder / relative;
 }
 

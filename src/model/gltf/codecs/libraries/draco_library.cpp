@@ -77,9 +77,8 @@ template <class Decoder>
 std::string runDecoder(draco::DecoderBuffer& buffer, const DracoLimits& limits, draco::Mesh& mesh) {
     // Keep quantized values as integers with their grid, so that encoding again reproduces the same grid.
     draco::DecoderOptions options;
-    for (int kind = 0; kind < draco::GeometryAttribute::NAMED_ATTRIBUTES_COUNT; ++kind) {
+    for (int kind = 0; kind < draco::GeometryAttribute::NAMED_ATTRIBUTES_COUNT; ++kind)
         options.SetAttributeBool(static_cast<draco::GeometryAttribute::Type>(kind), "skip_attribute_transform", true);
-    }
     Limited<Decoder> decoder(limits);
     if (decoder.Decode(options, &buffer, &mesh).ok()) return {};
     return decoder.isTooLarge() ? kTooMuch : "the Draco data is damaged";
