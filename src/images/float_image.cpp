@@ -5,7 +5,6 @@
 #include "images/codecs.h"
 
 namespace tspace {
-
 namespace {
 
 FloatImage floatsOf(const RgbImage& image) {

@@ -9,7 +9,6 @@
 #include "images/codecs.h"
 
 namespace tspace {
-
 namespace {
 
 /// Values down to this limit may come from sharpening filters.

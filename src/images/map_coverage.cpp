@@ -6,7 +6,6 @@
 #include <utility>
 
 namespace tspace {
-
 namespace {
 
 constexpr float kTransparent = 0.5F / 255, kOpaque = 1 - kTransparent;

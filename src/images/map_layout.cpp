@@ -5,7 +5,6 @@
 #include <cmath>
 
 namespace tspace {
-
 namespace {
 
 /// withoutSrgb converts a channel from sRGB to linear, withSrgb converts it back (IEC 61966-2-1).

@@ -12,7 +12,6 @@
 #endif
 
 namespace tspace {
-
 namespace {
 
 /// Properties of a format in KTX2 and DDS: Vulkan format number, Direct3D format number (DXGI), and color model of the

@@ -6,7 +6,6 @@
 #include <string>
 
 namespace tspace::import {
-
 namespace {
 
 void append32(std::vector<std::uint8_t>& out, std::uint64_t value) {

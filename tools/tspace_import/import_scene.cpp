@@ -23,7 +23,6 @@
 #include "stored_tangents.h"
 
 namespace tspace::import {
-
 namespace {
 
 class SceneWriter {

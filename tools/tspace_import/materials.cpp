@@ -15,7 +15,6 @@
 #include "repair.h"
 
 namespace tspace::import {
-
 namespace {
 
 std::string percentEncoded(const std::string& text) {

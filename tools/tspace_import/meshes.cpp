@@ -14,7 +14,6 @@
 #include "tspace/mesh.h"
 
 namespace tspace::import {
-
 namespace {
 
 /// Attribute of a primitive: `components` floats per vertex.

@@ -5,7 +5,6 @@
 #include <cmath>
 
 namespace tspace::import {
-
 namespace {
 
 bool isFinite(const aiVector3D& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }

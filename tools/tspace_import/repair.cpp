@@ -10,7 +10,6 @@
 #include <limits>
 
 namespace tspace::import {
-
 namespace {
 
 /// Normals that are unit within the validator's tolerance keep their bits.

@@ -11,7 +11,6 @@
 #include <vector>
 
 namespace tspace::import {
-
 namespace {
 
 struct Names {

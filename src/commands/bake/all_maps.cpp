@@ -15,7 +15,6 @@
 #include "model/io/file_io.h"
 
 namespace tspace {
-
 namespace {
 
 /// Maximum number of IDs listed in the report. All IDs are counted.
@@ -188,7 +187,6 @@ ShownMaterial HighDetail::materialAt(std::uint32_t triangle, const std::array<do
 }
 
 namespace report {
-
 namespace {
 
 std::string colorText(const std::array<std::uint8_t, 3>& color) {

@@ -9,7 +9,6 @@
 #include "model/io/file_error.h"
 
 namespace tspace {
-
 namespace {
 
 /// Returns the direction of the green channel, determined from the slopes of the map.

@@ -22,11 +22,7 @@ namespace {
 
 std::string setName(std::size_t set) { return "TEXCOORD_" + std::to_string(set); }
 
-}  // namespace
-
 // Checks of positions and normals: finite, unit length, and on the front side of their triangles.
-
-namespace {
 
 /// Cosine of the angle between a normal and the face normal below which the normal points to the back (angles over 96
 /// degrees). The margin over 90 degrees allows for coarse smooth shading.

@@ -220,7 +220,6 @@ Result<CompressMapFileReport> compressMapFile(const std::string& input, const st
 }  // namespace tspace
 
 namespace tspace::options {
-
 namespace {
 
 constexpr Named<TextureFormat> kFormats[] = {{"bc5", TextureFormat::bc5},

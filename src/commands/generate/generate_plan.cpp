@@ -21,7 +21,6 @@
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 std::string uvName(std::size_t set) { return "TEXCOORD_" + std::to_string(set); }

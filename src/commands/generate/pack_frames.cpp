@@ -15,7 +15,6 @@
 #include "tspace/pack.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 bool movesAttribute(const Primitive& primitive, const char* name) {

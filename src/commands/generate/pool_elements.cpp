@@ -9,7 +9,6 @@
 #include "model/gltf/vertex_numbers.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 template <class Vec>

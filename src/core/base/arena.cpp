@@ -23,7 +23,6 @@ extern "C" __declspec(dllimport) int __stdcall VirtualFree(void*, std::size_t, u
 #endif
 
 namespace tspace {
-
 namespace {
 
 /// Granularity of allocations: sizes are rounded up to multiples of it, so that every block is aligned.

@@ -16,7 +16,6 @@
 #include "tspace/normals.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::uint32_t kNoVertexNear = 0xffffffffu;

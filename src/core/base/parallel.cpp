@@ -9,7 +9,6 @@
 #include <vector>
 
 namespace tspace {
-
 namespace {
 
 /// Time for which a thread spins while it waits for the next loop (or the last task of this one), before it sleeps.

@@ -12,7 +12,6 @@
 #include "core/base/vec_math.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::size_t kBlocksPerTask = 256;

@@ -16,7 +16,6 @@
 #include "tspace/span.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::size_t kPrefetchAhead = 32;  // lookups in flight, whose data must fit into the L1 cache

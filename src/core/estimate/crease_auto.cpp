@@ -20,7 +20,6 @@
 #include "core/estimate/denoise.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::uint32_t kNoPair = ~std::uint32_t{0};

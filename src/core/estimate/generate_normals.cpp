@@ -15,7 +15,6 @@
 #include "core/normals/normals_call.h"
 
 namespace tspace {
-
 namespace {
 
 /// Time of `best`, and of creases, relative to other weightings, approximately. Both take longer because they group the

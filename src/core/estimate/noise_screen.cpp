@@ -12,7 +12,6 @@
 #include "core/estimate/denoise.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::size_t kEdges = 512;

@@ -17,7 +17,6 @@
 #include "tspace/mesh.h"
 
 namespace tspace {
-
 namespace {
 
 /// Above this many corners ears are not tested for emptiness, which would take quadratic time.

@@ -9,7 +9,6 @@
 #include "core/base/vec_math.h"
 
 namespace tspace {
-
 namespace {
 
 // Sine of the angle below which two float directions count as parallel: smaller angles are rounding noise (each

@@ -6,7 +6,6 @@
 #include "core/base/mesh_loops.h"
 
 namespace tspace {
-
 namespace {
 
 /// Returns, for each new vertex, the index of its attribute entry: from the attribute's index list, at the vertex's

@@ -21,7 +21,6 @@
 #include "core/frames/one_list.h"
 
 namespace tspace {
-
 namespace {
 
 /// Tolerance of the glTF validator for the length of a tangent.

@@ -18,7 +18,6 @@
 #include "core/base/unique_index.h"
 
 namespace tspace {
-
 namespace {
 
 using AttributeSpan = std::span<const CornerAttribute>;

@@ -7,7 +7,6 @@
 #include "tspace/mesh.h"
 
 namespace tspace {
-
 namespace {
 
 Result<Triangulation> cutFaces(const MeshView& mesh) {

@@ -12,7 +12,6 @@
 #include "tspace/frame.h"
 
 namespace tspace {
-
 namespace {
 
 class FramesMaker {

@@ -17,7 +17,6 @@
 #include "tspace/indexed_frames.h"
 
 namespace tspace {
-
 namespace {
 
 using WordList = std::vector<std::uint32_t>;

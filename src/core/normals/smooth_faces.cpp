@@ -17,7 +17,6 @@
 #include "core/normals/normals_call.h"
 
 namespace tspace {
-
 namespace {
 
 using smooth::FaceTerms, smooth::kDoubtful, smooth::kTermTriangles, smooth::kVanished;

@@ -18,7 +18,6 @@
 #include "core/normals/normals_call.h"
 
 namespace tspace {
-
 namespace {
 
 using smooth::FaceTerms, smooth::FaceSource, smooth::kTermGroup, smooth::kTermTriangles, smooth::kDoubtful,

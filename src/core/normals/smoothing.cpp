@@ -10,7 +10,6 @@
 #include "core/base/vec_math.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::uint32_t kNoSlot = ~std::uint32_t{0};

@@ -6,7 +6,6 @@
 #include "core/pack/frame_kernel.h"
 
 namespace tspace::pack::TSPACE_LANES {
-
 namespace {
 
 /// Returns number `which` of a frame, a signed integer of kBits bits. The minimum value is clamped to its successor, as

@@ -7,7 +7,6 @@
 #endif
 
 namespace tspace::simd {
-
 namespace {
 
 /// Returns the best target of this CPU. Equivalent to __builtin_cpu_supports on x86-64, but without the names of all

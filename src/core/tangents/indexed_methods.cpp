@@ -12,7 +12,6 @@
 #include "core/tangents/mikktspace/weld.h"
 
 namespace tspace {
-
 namespace {
 
 /// Triangulates faces, unless all are triangles.

@@ -19,7 +19,6 @@
 #include "core/tangents/indexed_methods.h"
 
 namespace tspace {
-
 namespace {
 
 /// Counts for a range of vertices: triangles are counted in the range of their first vertex.

@@ -11,7 +11,6 @@
 #include "tspace/tangents.h"
 
 namespace tspace {
-
 namespace {
 
 /// Wrapper that serializes the calls of the caller's allocator.

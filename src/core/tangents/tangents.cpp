@@ -111,7 +111,6 @@ EvaluationPlan planGrouped(const MeshView& mesh, const Call<TangentOptions>& opt
 }  // namespace tspace::mikk
 
 namespace tspace {
-
 namespace {
 
 Error checkOptions(const TangentOptions& options) {

@@ -11,7 +11,6 @@
 #include "core/base/vec_math.h"
 
 namespace tspace::winding {
-
 namespace {
 
 /// Face at an edge where more than two faces meet.
@@ -288,10 +287,6 @@ struct OwnAngles {
         }
     }
 };
-
-}  // namespace
-
-namespace {
 
 class Flood {
   public:

@@ -12,7 +12,6 @@
 #include "tspace/winding.h"
 
 namespace tspace::winding {
-
 namespace {
 
 constexpr std::size_t kLeaf = 8;  // maximum number of boxes in a leaf

@@ -19,7 +19,6 @@
 #include "images/tracked_memory.h"
 
 namespace tspace {
-
 namespace {
 
 /// Header fields that are needed before the library reads the file.

@@ -7,7 +7,6 @@
 #include "images/flip_green.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::size_t kSignatureBytes = 8;

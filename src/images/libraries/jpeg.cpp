@@ -10,7 +10,6 @@
 #include "images/flip_green.h"
 
 namespace tspace {
-
 namespace {
 
 struct Destroy {

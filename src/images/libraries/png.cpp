@@ -12,7 +12,6 @@
 #include "images/tracked_memory.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::size_t kMaxChunkBytes = std::size_t{64} << 20;

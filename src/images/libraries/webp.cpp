@@ -10,7 +10,6 @@
 #include "images/flip_green.h"
 
 namespace tspace {
-
 namespace {
 
 /// Returns the header of a still image; nullopt, with the reason in `why`, for other files.

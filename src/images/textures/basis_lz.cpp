@@ -7,7 +7,6 @@
 #include "images/textures/texture_file.h"
 
 namespace tspace {
-
 namespace {
 
 /// Reads bits, starting with the lowest bit of each byte. After the end of the data it returns zeros and sets a flag.

@@ -6,7 +6,6 @@
 #include "images/textures/texel_format.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::size_t kBc7Texels = 16;

@@ -9,7 +9,6 @@
 #include "images/textures/texture_file.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::uint32_t codeOf(const char (&text)[5]) {

@@ -8,7 +8,6 @@
 #include "images/textures/texture_file.h"
 
 namespace tspace {
-
 namespace {
 
 /// A texel format with its Vulkan format number, and whether that number is an sRGB format.

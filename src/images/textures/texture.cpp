@@ -12,7 +12,6 @@
 #include "images/textures/texture_file.h"
 
 namespace tspace {
-
 namespace {
 
 std::uint64_t rowBytes(const TextureFile& texture) {

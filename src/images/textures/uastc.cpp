@@ -8,7 +8,6 @@
 #include "images/textures/texel_format.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::size_t kUastcTexels = 16, kSolid = 8;

@@ -4,7 +4,6 @@
 #include <array>
 
 namespace tspace {
-
 namespace {
 
 class MissingTexels {

@@ -17,7 +17,6 @@
 #include "maps/texels/quantize.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::uint32_t kMostSide = 16384;
@@ -197,10 +196,6 @@ class Baking {
     TracedTexels traced_ = {};
     BakedMap map_ = {};
 };
-
-}  // namespace
-
-namespace {
 
 /// Returns whether the axes are finite, orthogonal and of unit length, within a rounding tolerance.
 bool areAxes(const MapAxes& axes) {

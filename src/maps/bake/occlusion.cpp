@@ -5,7 +5,6 @@
 #include "maps/bake/hemisphere.h"
 
 namespace tspace {
-
 namespace {
 
 /// Offset of ray origins from the surface, relative to the size of the high poly. It avoids hits on the triangle itself

@@ -9,7 +9,6 @@
 #include "maps/solve/solve_texels.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr unsigned kIntegerRounds = 3;

@@ -12,7 +12,6 @@
 #include "core/base/weld.h"
 
 namespace tspace {
-
 namespace {
 
 class Curvature {

@@ -5,7 +5,6 @@
 #include <array>
 
 namespace tspace {
-
 namespace {
 
 constexpr std::size_t kRowsOfPlan = 16;

@@ -20,7 +20,6 @@
 #include "maps/solve/solve_texels.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::size_t kNoLayer = ~std::size_t{0};

@@ -8,7 +8,6 @@
 #include "maps/solve/solve_texels.h"
 
 namespace tspace {
-
 namespace {
 
 /// Minimum length of the mean of two unit vectors that count as equal: the cosine of half of kApartDeg.

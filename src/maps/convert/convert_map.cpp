@@ -19,7 +19,6 @@
 #include "tspace/maps.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::size_t kTexelsOfTask = 4096, kTasksOfStep = 64;

@@ -10,7 +10,6 @@
 #include "maps/texels/texture_sample.h"
 
 namespace tspace {
-
 namespace {
 
 /// Maximum distance of vectors that count as equal: far below a step of 16 bits, and far above the error of inverting a

@@ -13,7 +13,6 @@
 #include "maps/texels/texture_sample.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::size_t kRowsOfTask = 16;

@@ -7,7 +7,6 @@
 #include "maps/error/measure_points.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::uint32_t kMostPoints = 10'000'000;

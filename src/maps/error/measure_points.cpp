@@ -10,7 +10,6 @@
 #include "maps/texels/texture_sample.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::size_t kPointsOfTask = 1024;

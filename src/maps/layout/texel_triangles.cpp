@@ -12,7 +12,6 @@
 #include <vector>
 
 namespace tspace {
-
 namespace {
 
 constexpr std::uint32_t kBandRows = 64;

@@ -10,7 +10,6 @@
 #include "maps/layout/uv_rows.h"
 
 namespace tspace {
-
 namespace {
 
 /// Returns a mask of the bits `begin` to `end` - 1 of a word; `end` is at most 64.

@@ -11,7 +11,6 @@
 #include "core/base/vec_math.h"
 
 namespace tspace {
-
 namespace {
 
 struct HashedCorner {

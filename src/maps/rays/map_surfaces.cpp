@@ -10,7 +10,6 @@
 #include "maps/texels/texture_sample.h"
 
 namespace tspace {
-
 namespace {
 
 /// Ratio of the sizes of two models above which they are assumed to use different units.
@@ -95,10 +94,6 @@ Error apartError(const PositionBox& low, const PositionBox& high) {
     return makeError(ErrorCode::missingAttribute, kNoElement, "the low poly and the high poly do not overlap%s%s",
                      why.empty() ? "" : "; ", why.c_str());
 }
-
-}  // namespace
-
-namespace {
 
 Error checkHighMaps(const HighPoly& high) {
     if (high.maps.empty()) return {ErrorCode::ok};

@@ -13,7 +13,6 @@
 #include "maps/rays/rays.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::size_t kSamples = 1000;

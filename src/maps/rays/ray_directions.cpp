@@ -14,7 +14,6 @@
 #include "maps/texels/texture_sample.h"
 
 namespace tspace {
-
 namespace {
 
 std::uint32_t nextCorner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }

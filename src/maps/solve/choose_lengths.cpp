@@ -8,7 +8,6 @@
 #include "core/base/vec_math.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::uint32_t kRowsOfBand = 128;

@@ -10,7 +10,6 @@
 #include "maps/texels/eight_lanes.h"
 
 namespace tspace {
-
 namespace {
 
 void addBlock(SymmetricBlock& to, float weight, const SymmetricBlock& metric) {

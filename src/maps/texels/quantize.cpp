@@ -6,7 +6,6 @@
 #include <cmath>
 
 namespace tspace {
-
 namespace {
 
 using Components = std::array<double, 3>;

@@ -7,7 +7,6 @@
 #include "core/base/vec_math.h"
 
 namespace tspace {
-
 namespace {
 
 DVec3 mixed(const std::array<DVec3, 3>& of, const std::array<double, 3>& weights) {

@@ -12,7 +12,6 @@
 #include "tspace/mesh.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 /// Maximum number of elements of accessors without a buffer view. Such elements are all zero and take no space in the

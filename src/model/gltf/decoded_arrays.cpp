@@ -9,7 +9,6 @@
 #include "model/gltf/packed_frames.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 /// Array together with its reservation in the memory budget.

@@ -14,7 +14,6 @@
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 /// Maximum memory for decoding without a user's limit. Draco has no minimum size per vertex (a flat grid takes almost

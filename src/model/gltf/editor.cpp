@@ -12,7 +12,6 @@
 #include "model/io/uri.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 /// Sets a member; removes it if the value is null.

@@ -13,7 +13,6 @@
 #include "core/base/numbers.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 /// Returns the accessor's description without its elements.

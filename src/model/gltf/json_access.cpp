@@ -11,7 +11,6 @@
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 [[noreturn]] void failJson(std::string message, std::string place) {

@@ -21,7 +21,6 @@
 #include "model/io/uri.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 /// Required extensions that do not affect how geometry is read.

@@ -14,7 +14,6 @@
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 /// Reads a UV set index. Fails beyond 31 bits, because reports store UV sets in 32 bits.

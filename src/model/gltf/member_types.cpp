@@ -11,7 +11,6 @@
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 enum class MemberType { text, boolean, integer, number, object, texts, integers, numbers, objects };

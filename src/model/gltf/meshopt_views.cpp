@@ -10,7 +10,6 @@
 #include "tspace/mesh.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 /// Number of bytes that a fallback buffer without data may have outside of its compressed views, for files of any size.

@@ -9,7 +9,6 @@
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 /// Returns the format that the accessor of a part must have, as spelled by formatName.

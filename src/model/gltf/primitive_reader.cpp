@@ -16,7 +16,6 @@
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 AttributeList readAttributes(const Json& object, const std::string& place, std::size_t accessor_count) {

@@ -11,7 +11,6 @@
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 /// Cuts are multiples of this size, so that all data after them keeps its alignment (glTF requires 4; data of

@@ -13,7 +13,6 @@
 #include "model/io/file_error.h"
 
 namespace tspace::gltf {
-
 namespace {
 
 constexpr const char* kOutline = "CESIUM_primitive_outline";

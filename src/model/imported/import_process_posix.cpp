@@ -21,7 +21,6 @@
 #include "model/io/file_error.h"
 
 namespace tspace {
-
 namespace {
 
 using Clock = std::chrono::steady_clock;

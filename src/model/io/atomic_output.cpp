@@ -12,7 +12,6 @@
 #include "model/io/file_error.h"
 
 namespace tspace {
-
 namespace {
 
 /// Bytes of one write: views of existing bytes, and a block of generated ones.

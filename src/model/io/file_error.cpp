@@ -8,7 +8,6 @@
 #include <system_error>
 
 namespace tspace {
-
 namespace {
 
 struct Character {

@@ -21,7 +21,6 @@
 #include "model/obj/tiny_obj_loader.h"
 
 namespace tspace::obj {
-
 namespace {
 
 bool isDecimal(char c) { return c >= '0' && c <= '9'; }

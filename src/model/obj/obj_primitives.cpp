@@ -17,7 +17,6 @@
 #include "tspace/mesh.h"
 
 namespace tspace::obj {
-
 namespace {
 
 bool hasUvs(const Model& model, const Face& face) {
@@ -239,10 +238,6 @@ ScenePrimitive loadPrimitive(const Model& model, const ObjPrimitive& primitive, 
     }
     return result;
 }
-
-}  // namespace
-
-namespace {
 
 /// Returns the scene without images, which are added to `files`.
 Scene loadScene(const Model& model, std::span<const ObjPrimitive> primitives, ImageFiles& files) {

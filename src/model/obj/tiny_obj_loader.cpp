@@ -9,7 +9,6 @@
 #include <streambuf>
 
 namespace tspace::obj {
-
 namespace {
 
 /// Stream over bytes that are already in memory.

@@ -8,7 +8,6 @@
 #include "maps/texels/shading.h"
 
 namespace tspace {
-
 namespace {
 
 /// Number of sample points per texel and axis. They are in the middle of equal parts of the distance between adjacent

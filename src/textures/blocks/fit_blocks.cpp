@@ -8,7 +8,6 @@
 #include "textures/blocks/block_search.h"
 
 namespace tspace {
-
 namespace {
 
 /// Runs body(row) for all `count` rows such that neighboring rows never run at the same time: every second row, then

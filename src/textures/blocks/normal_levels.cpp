@@ -6,7 +6,6 @@
 #include <cmath>
 
 namespace tspace {
-
 namespace {
 
 /// Means of xx, xy, xz, yy and yz of unit normals; the mean of zz follows from them.

@@ -7,7 +7,6 @@
 #include <cmath>
 
 namespace tspace {
-
 namespace {
 
 /// Computes the number of levels by which a roughness texture is smaller than the normal map (negative: larger).

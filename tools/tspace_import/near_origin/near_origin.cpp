@@ -13,7 +13,6 @@
 #include "near_origin/coordinates.h"
 
 namespace tspace::import {
-
 namespace {
 
 struct FormatReader {

@@ -12,7 +12,6 @@
 #include "near_origin/coordinates.h"
 
 namespace tspace::import {
-
 namespace {
 
 enum class Format { ascii, little, big };

@@ -7,7 +7,6 @@
 #include "near_origin/coordinates.h"
 
 namespace tspace::import {
-
 namespace {
 
 /// Returns whether the file is binary STL, by Assimp's rule: the file size matches the declared number of triangles.

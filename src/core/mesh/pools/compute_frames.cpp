@@ -28,7 +28,6 @@
 #include "tspace/tangents.h"
 
 namespace tspace {
-
 namespace {
 
 /// Returns the options for the file's coordinate system: a convention may be an engine's preset, but in every supported

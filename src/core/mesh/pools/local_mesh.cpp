@@ -17,7 +17,6 @@
 #include "tspace/indexed_frames.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::uint32_t kNoSlot = 0xffffffffu;

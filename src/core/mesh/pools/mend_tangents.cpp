@@ -11,7 +11,6 @@
 #include "tspace/tangents.h"
 
 namespace tspace {
-
 namespace {
 
 /// Cosine of 10 degrees, the direction tolerance of `check`.

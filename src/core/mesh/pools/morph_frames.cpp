@@ -22,7 +22,6 @@
 #include "tspace/tangents.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr double kCosineOfFiveDegrees = 0.99619469809174555;

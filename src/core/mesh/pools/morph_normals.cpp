@@ -10,7 +10,6 @@
 #include "core/mesh/pools/unit_lattice.h"
 
 namespace tspace {
-
 namespace {
 
 /// Tolerance within which corners share an offset, for unit vectors: 0.0006 degrees. It covers the rounding of normals

@@ -21,7 +21,6 @@
 #include "tspace/span.h"
 
 namespace tspace {
-
 namespace {
 
 struct WindingCounts {
@@ -195,10 +194,6 @@ WindingCounts countWinding(const StridedSpan<const Vec3>& positions, std::span<c
     winding.two_sided_count = Sheets(positions, corners, points).count(edges);
     return winding;
 }
-
-}  // namespace
-
-namespace {
 
 /// Counts the faults of one primitive. `positions` come from NearMesh, because neighbors are found by equal positions.
 void countFaultsOf(const StridedSpan<const Vec3>& positions, std::span<const Vec3> normals,

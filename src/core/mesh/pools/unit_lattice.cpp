@@ -10,7 +10,6 @@
 #include "core/base/vec_math.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr double kLengthTolerance = 0.006;

@@ -6,7 +6,6 @@
 #include <vector>
 
 namespace tspace {
-
 namespace {
 
 using Coordinates = std::array<double, 3>;

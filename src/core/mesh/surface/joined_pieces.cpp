@@ -13,7 +13,6 @@
 #include "core/base/unique_index.h"
 
 namespace tspace {
-
 namespace {
 
 constexpr std::uint32_t kNoPiece = 0xffffffffu;

@@ -16,7 +16,6 @@
 #include "tspace/span.h"
 
 namespace tspace {
-
 namespace {
 
 // -- decimal or integer lattice that positions were rounded to before conversion to float --

@@ -12,7 +12,6 @@
 #include "core/base/vec_math.h"
 
 namespace tspace {
-
 namespace {
 
 /// Determinants below this value are treated as zero, as in the reference.

@@ -9,7 +9,6 @@
 #include "core/tangents/estimators/estimator.h"
 
 namespace tspace::estimators {
-
 namespace {
 
 static_assert(kBlockTriangles == SumRound::kTriangles && kLaneGroup == SumRound::kGroups);

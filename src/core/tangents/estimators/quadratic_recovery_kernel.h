@@ -34,7 +34,6 @@
 #include "core/tangents/estimators/estimator_lanes.h"
 
 namespace tspace::estimators::TSPACE_LANES {
-
 namespace {
 
 // maximum factor by which a vector in the tangent plane is lengthened: an edge at more than 60 degrees to the plane is

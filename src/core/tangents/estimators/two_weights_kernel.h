@@ -18,7 +18,6 @@
 #include "core/tangents/estimators/estimator_lanes.h"
 
 namespace tspace::estimators::TSPACE_LANES {
-
 namespace {
 
 // squared sine of 3.4 degrees, the angle between the two means at which both have equal weights

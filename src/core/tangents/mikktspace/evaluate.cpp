@@ -14,7 +14,6 @@
 #include "core/tangents/mikktspace/evaluate.h"
 
 namespace tspace::mikk {
-
 namespace {
 
 constexpr std::size_t kGroupGrain = 8192, kWriteGrain = 8192;

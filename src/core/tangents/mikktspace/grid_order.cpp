@@ -16,7 +16,6 @@
 #include "core/tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
-
 namespace {
 
 constexpr std::size_t kVertexGrain = 16384;  // vertices per task, a multiple of 4

@@ -13,7 +13,6 @@
 #include "core/tangents/mikktspace/node_sums.h"
 
 namespace tspace::mikk {
-
 namespace {
 
 /// Returns whether the links between the corners form a single path or ring, without ambiguity.

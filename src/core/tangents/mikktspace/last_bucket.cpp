@@ -45,7 +45,6 @@
 #include "core/tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
-
 namespace {
 
 constexpr std::uint32_t kSeed = 39871946;

@@ -14,7 +14,6 @@
 #include "core/base/vec_math.h"
 
 namespace tspace::mikk {
-
 namespace {
 
 // log2 of the minimum number of nodes per task: for fewer, another thread costs more than it saves

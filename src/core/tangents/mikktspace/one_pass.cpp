@@ -27,7 +27,6 @@
 #include "core/tangents/mikktspace/weld.h"
 
 namespace tspace::mikk {
-
 namespace {
 
 constexpr std::size_t kCornerGrain = 16384;

@@ -38,7 +38,6 @@
 #include "core/tangents/mikktspace/groups.h"
 
 namespace tspace::mikk {
-
 namespace {
 
 template <class T>

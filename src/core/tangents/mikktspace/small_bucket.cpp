@@ -8,7 +8,6 @@
 #include "core/tangents/mikktspace/last_bucket.h"
 
 namespace tspace::mikk {
-
 namespace {
 
 constexpr std::size_t kMostNodes = 192;

@@ -9,7 +9,6 @@
 #include "core/tangents/mikktspace/groups.h"
 
 namespace tspace::mikk {
-
 namespace {
 
 static_assert(kTermTriangles == 64);

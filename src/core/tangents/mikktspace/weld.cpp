@@ -18,7 +18,6 @@
 #include "core/tangents/mikktspace/words.h"
 
 namespace tspace::mikk {
-
 namespace {
 
 /// Sizes of faces that are triangulated: 3 and 4, and those of n-gons if requested. Faces of all other sizes are

@@ -11,7 +11,6 @@
 #endif
 
 namespace tspace::gltf {
-
 namespace {
 
 /// First version that decodes the additions of KHR_meshopt_compression: vertex codec 1 and the color filter.
