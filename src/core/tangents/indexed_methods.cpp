@@ -134,11 +134,11 @@ float meanLength(const DVec3& sum, double count) {
 CornerFrame makeCornerFrame(const Derivatives& d, const Vec3& normal, float sign_factor) {
     const CornerFrame fallback{{1, 0, 0, sign_factor}, {0, sign_factor, 0}, 1, 1, false};
     const DVec3 n = toDouble(normal);
+    // cross(N, T) has the direction of cross(N, dP/du), which needs fewer operations, so less rounding.
+    const float sign = (dot(cross(n, d.s), d.t) < 0 ? -1.0f : 1.0f) * sign_factor;
     DVec3 t = d.s - dot(n, d.s) * n;
     if (!normalize(t)) return fallback;
 
-    // cross(N, T) has the direction of cross(N, dP/du), which needs fewer operations, so less rounding.
-    const float sign = (dot(cross(n, d.s), d.t) < 0 ? -1.0f : 1.0f) * sign_factor;
     DVec3 b = d.t;
     float b_sign = sign_factor;
     if (!normalize(b)) {
