@@ -76,6 +76,7 @@ for (const [name, viewport] of [["wide", { width: 1280, height: 800 }], ["narrow
       assert.equal(await tab.$eval(".finding", (button) => button.dataset.code), "signsWrong");
       assert.match(await text(tab, ".verdict"), /mikktspace/);
       assert.ok(await tab.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "nothing is wider than the window");
+      await tab.evaluate(() => [...document.querySelectorAll("label.check")].find((label) => label.textContent === "Colors").click());
       const { data, width, height, channels } = await shoot(tab, name);
       let orange = 0;
       for (let i = 0; i < width * height * channels; i += channels) orange += data[i] > 150 && data[i + 1] > 60 && data[i + 1] < 140 && data[i + 2] < 60;
