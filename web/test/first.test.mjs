@@ -33,7 +33,7 @@ test("the first view names and shows the fault, and one click fixes it", { skip:
     assert.equal(message, `bumps look like dents in places: ${cause}`);
     assert.equal(await tab.locator(".finding .message").textContent(), cause);
     assert.equal((await tab.locator(".finding").textContent()).match(/dents/g).length, 1);
-    for (const panel of [".inspector", ".findings"]) assert.ok(await tab.locator(panel).evaluate((one) => one.scrollWidth <= one.clientWidth), `${panel} overflows`);
+    for (const panel of [".inspector", ".findings", ".samples"]) assert.ok(await tab.locator(panel).evaluate((one) => one.scrollWidth <= one.clientWidth), `${panel} overflows`);
     await tab.locator(".split").fill(String(Math.round(1000 * at)));
     await tab.locator(".finding").click();
     assert.equal(await tab.evaluate(() => window.tspaceView.views.stage.viewport.settings.look), "signs");
