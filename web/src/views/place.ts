@@ -17,6 +17,9 @@ const kFarDegrees = 5;
 /** Maximum numbers of findings, and of triangles of each, that determine the viewpoint. */
 const kMostAimed = 50, kMostFaces = 2000;
 
+/** Maximum number of triangles whose boundary is marked in the first view, which must not delay it. */
+const kMostMarked = 20_000;
+
 /** If a finding affects a larger fraction of the surface, the camera does not move. */
 const kEverywhere = 0.5;
 
@@ -91,16 +94,18 @@ export class PlaceView {
    * Moves the camera to where most of the findings' area is visible, with the split line at the center of the visible
    * difference: one half shows the file, the other half the correct frames. Of the best view and the one mirrored in x,
    * selects the view whose split line is closer to the center of the picture. Marks the boundary of the affected
-   * triangles, unless most triangles are affected.
+   * triangles, unless most triangles, or more than kMostMarked, are affected.
    */
   aim(findings: Finding[]): void {
     const faces: Face[] = [], { scene } = this.viewport, rims = new Group();
+    let marked = 0;
     for (const finding of findings.slice(0, kMostAimed)) {
       const drawn = finding.place === "" ? undefined : scene.find(finding.mesh, finding.primitive);
       if (!drawn) continue;
       const triangles = trianglesOf(drawn, finding), step = Math.ceil(triangles.length / kMostFaces);
       faces.push(...facesOf(drawn, triangles.filter((_, i) => i % step === 0)));
-      if (triangles.length > 0 && finding.surfaceShare < kEverywhere) rims.add(outlineTriangles(drawn, triangles).rim);
+      marked += triangles.length;
+      if (triangles.length > 0 && marked <= kMostMarked && finding.surfaceShare < kEverywhere) rims.add(outlineTriangles(drawn, triangles).rim);
     }
     const toEye = this.viewport.camera.position.clone().sub(this.viewport.target), isEverywhere = findings[0].surfaceShare >= kEverywhere, toward = isEverywhere ? toEye.normalize() : bestDirection(faces.map(({ out }) => out), toEye);
     if (!toward) return this.setSplit(0.5);
