@@ -15,10 +15,8 @@
 // primitives of real models:
 //
 // step                    the step ends if                               gain
-// mayMatter               no node has three edges that may be in the     no grid is read for most primitives of up to
-//                         bucket: the order of two edges is irrelevant   50 triangles
-// leastKey (small mesh)   the same, for a lower bound of V: corners      77 of 98 primitives of up to 50 triangles end
-//                         bound representatives                          here: 23,640 to 21,690 instructions per call
+// mayMatter               no node has three triangles: the order of two  reads no grid for separate triangles and quads:
+//                         edges is irrelevant                            11 to 34 % of the instructions of a call
 // findBucket, 5 or 10     a key of at least F is among the last          5 and 10 instead of 6 and 12: 0.3 % up to 50
 // triangles               triangles, as in natural order                 triangles, 0.7 % above 5,000
 //   24 if unordered       one in 36 edges of a late triangle has its     20,000 shuffled triangles: 6.8 % more with 10,
@@ -154,43 +152,19 @@ class BucketFinder {
 
     /// Returns whether three edges of the last bucket may share a node. All edges of the bucket share one node, and a
     /// triangle has at most one of these edges: if it had two, the edge between their higher ends would have a larger
-    /// key. Counts the edges per node of triangles that may have the largest key.
+    /// key. So three triangles must share a node.
     [[nodiscard]] bool mayMatter() {
-        const std::size_t count = in_.triangles.count;
-        std::uint32_t* const edges = representatives_.data();  // edge counts per node; the memory is reused later
-        clearRepresentatives();
-        std::uint32_t room[kBlockCorners], last[kBlockCorners], known = 0;
-        for (std::size_t first = 0; first < count; first += kCollectBlock) {
-            const std::size_t size = 3 * std::min(kCollectBlock, count - first);
-            const std::uint32_t* nodes = readTriangles(in_.mesh, in_.triangles, first, size / 3, room);
-            nodes = in_.nodes.ofVertices(nodes, size, room);
-            if (count <= kCollectBlock && in_.nodes.count <= kBlockCorners && in_.triangles.corners.empty())
-                known = leastKey(nodes, last);
-            for (const std::uint32_t *n = nodes, *const end = nodes + size; n != end; n += 3) {
-                if (known != 0 && keyOf(n, last) < known) continue;
-                for (std::size_t k = 0; k < 3; ++k) {
-                    if ((known == 0 || last[n[k]] >= known) && ++edges[n[k]] == 3) return clearRepresentatives(), true;
-                }
+        clearRepresentatives();  // the memory is used for counts first
+        for (std::size_t t = 0; t < in_.triangles.count; ++t) {
+            const Triangle triangle(in_, t);
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (++representatives_[triangle.nodes[k]] == 3) return clearRepresentatives(), true;
             }
         }
         return false;
     }
 
     void clearRepresentatives() { std::memset(representatives_.data(), 0, in_.nodes.count * sizeof(std::uint32_t)); }
-
-    /// Returns a lower bound of V, the largest key, in a small mesh: each representative is between the first and the
-    /// `last` corner of its node.
-    std::uint32_t leastKey(const std::uint32_t* nodes, std::uint32_t* last) const {
-        std::uint32_t first[kBlockCorners], least = 0;
-        const auto count = static_cast<std::uint32_t>(3 * in_.triangles.count);
-        for (std::uint32_t i = 0; i < count; ++i) last[nodes[i]] = i;
-        for (std::uint32_t i = count; i-- > 0;) first[nodes[i]] = i;
-        for (std::uint32_t i = count; i > least; i -= 3) {  // the key of a triangle is at most its last corner
-            const std::uint32_t key = keyOf(nodes + i - 3, first);
-            if (key > least && isGood({in_, i / 3 - 1})) least = key;
-        }
-        return least;
-    }
 
     /// Returns the start of the last `length` triangles, or a few triangles earlier, so that no face is split.
     [[nodiscard]] std::size_t beginOfLast(std::size_t length) const {
