@@ -3,7 +3,6 @@
 #include "core/tangents/mikktspace/weld.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -20,17 +19,10 @@
 namespace tspace::mikk {
 namespace {
 
-/// Sizes of faces that are triangulated: 3 and 4, and those of n-gons if requested. Faces of all other sizes are
-/// skipped.
-class UsedSizes {
-  public:
-    explicit UsedSizes(Ngons ngons) : count_(ngons == Ngons::triangulate ? 0u - kLeast : 5 - kLeast) {}
-    [[nodiscard]] bool has(std::uint32_t size) const { return size - kLeast < count_; }
-
-  private:
-    static constexpr std::uint32_t kLeast = 3;
-    std::uint32_t count_;
-};
+/// Returns whether faces of a size are triangulated. All other faces are skipped.
+bool isUsed(std::uint32_t size, Ngons ngons) {
+    return size == 3 || size == 4 || (size > 4 && ngons == Ngons::triangulate);
+}
 
 /// Counts of faces and corners. There are fewer than 2^31 corners.
 struct FaceCounts {
@@ -40,10 +32,9 @@ struct FaceCounts {
 
 /// Counts faces from their sizes, by a branchless loop that compilers vectorize: a size that is not used counts as 0.
 FaceCounts countFaces(std::span<const std::uint32_t> sizes, Ngons ngons) {
-    const UsedSizes used(ngons);
     std::uint32_t corners = 0, used_corners = 0, used_faces = 0, faces_of_three = 0;
     for (const std::uint32_t size : sizes) {
-        const std::uint32_t used_size = used.has(size) ? size : 0;
+        const std::uint32_t used_size = isUsed(size, ngons) ? size : 0;
         corners += size;
         used_corners += used_size;
         used_faces += used_size != 0 ? 1 : 0;
@@ -79,10 +70,9 @@ TriangleList cutFaces(const MeshView& mesh, Ngons ngons, const Allocator* alloca
     list.faces = Buffer<std::uint32_t>(allocator, list.count);
     list.skipped_corners = Buffer<std::uint32_t>(allocator, counts.skipped_corners);
     FaceCutter cutter(mesh);
-    const UsedSizes used(ngons);
     std::uint32_t *to = list.corners.data(), *face_of = list.faces.data(), *skipped = list.skipped_corners.data();
     forEachFace(mesh, [&](std::size_t face, std::size_t corner, std::uint32_t size) {
-        if (used.has(size)) {
+        if (isUsed(size, ngons)) {
             cutter.cut(corner, size, to);
             to += 3 * (size - 2);
             face_of = std::fill_n(face_of, size - 2, static_cast<std::uint32_t>(face));
@@ -104,22 +94,15 @@ namespace {
 constexpr float kHugePosition = 1.6e38f;
 constexpr std::size_t kPrefetchAhead = 32;  // number of entries between the prefetch of a root and its comparison
 
-struct Vertex {
-    Vec3 position, normal;
-    Vec2 uv;
-};
-
-Vertex load(const MeshView& mesh, std::size_t v) { return {mesh.positions[v], mesh.normals[v], mesh.uvs[v]}; }
-
-bool equal(const Vertex& a, const Vertex& b) {
-    return a.position == b.position && a.normal == b.normal && a.uv == b.uv;
+bool equal(const MeshView& mesh, std::size_t a, std::size_t b) {
+    return mesh.positions[a] == mesh.positions[b] && mesh.normals[a] == mesh.normals[b] && mesh.uvs[a] == mesh.uvs[b];
 }
 
-bool isAllFinite(const Vertex& v) {
-    const auto& p = v.position;
+bool isAllFinite(const MeshView& mesh, std::size_t v) {
+    const Vec3& p = mesh.positions[v];
     const bool small =
         std::fabs(p.x) < kHugePosition && std::fabs(p.y) < kHugePosition && std::fabs(p.z) < kHugePosition;
-    return small && isFinite(v.normal) && std::isfinite(v.uv.x) && std::isfinite(v.uv.y);
+    return small && isFinite(mesh.normals[v]) && std::isfinite(mesh.uvs[v].x) && std::isfinite(mesh.uvs[v].y);
 }
 
 std::uint64_t pairAt(const void* at) {
@@ -210,7 +193,7 @@ class CornerData final : public Weldable {
             const std::uint32_t vertex = vertexOf(i), root = roots[i];
             if (root == vertex) continue;
             if (sameBits(mesh_, vertex, root)) continue;
-            if (equal(load(mesh_, vertex), load(mesh_, root))) {
+            if (equal(mesh_, vertex, root)) {
                 mixed = true;
             } else {
                 roots[i] = kNoRoot;
@@ -221,20 +204,13 @@ class CornerData final : public Weldable {
         return different;
     }
     [[nodiscard]] int order(std::uint32_t a, std::uint32_t b) const override {
-        const Words here = words(a), there = words(b);
-        return here == there ? 0 : here < there ? -1 : 1;
+        const VertexWords here = words(a), there = words(b);
+        return std::memcmp(&here, &there, sizeof here);
     }
 
   private:
-    using Words = std::array<std::uint32_t, 8>;
-
-    [[nodiscard]] Words words(std::uint32_t v) const {
-        const auto [p, n, uv] = load(mesh_, v);
-        Words words{};
-        std::size_t i = 0;
-        for (const float x : {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y})
-            words[i++] = std::bit_cast<std::uint32_t>(x + 0.0f);  // adding +0 converts -0 to +0
-        return words;
+    [[nodiscard]] VertexWords words(std::uint32_t v) const {
+        return {mesh_.positions[v], mesh_.normals[v], mesh_.uvs[v]};
     }
     void prefetch(std::uint32_t vertex) const {
         __builtin_prefetch(&mesh_.positions[vertex]);
@@ -313,7 +289,7 @@ void weldFew(const MeshView& mesh, const Allocator* allocator, Nodes& nodes) {
 
 [[gnu::cold]] bool usesFiniteVerticesOnly(const MeshView& mesh, const TriangleList& triangles) {
     for (std::size_t i = 0; i < 3 * triangles.count; ++i) {
-        if (!isAllFinite(load(mesh, mesh.indices[triangles.corner(i)]))) return false;
+        if (!isAllFinite(mesh, mesh.indices[triangles.corner(i)])) return false;
     }
     return true;
 }
