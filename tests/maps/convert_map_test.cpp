@@ -114,10 +114,8 @@ std::vector<Vec3> converted(const std::vector<Vec3>& texels, const MapSide& from
 
 /// Returns the shading direction at each texel's center, or zero if no triangle covers it.
 std::vector<DVec3> shown(const std::vector<Vec3>& texels, const Corners& side) {
-    std::vector<std::uint32_t> corners(side.uvs.size());
-    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
     Parallel parallel(Execution{});
-    const UvTriangles triangles{corners, side.uvs};
+    const UvTriangles triangles{.uvs = side.uvs};
     const auto size = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(texels.size()))));
     const auto places = findTexelTriangles(triangles, size, size, 0, parallel);
     std::vector<DVec3> directions(texels.size());

@@ -39,9 +39,7 @@ class Relief {
         const MapWork work{nullptr, parallel, nullptr};
         const auto surfaces = MapSurfaces::make(low_.view(), high_.view(), 0, {}, parallel, nullptr);
         if (!surfaces) return {};
-        const LowUvs uvs(low_.view(), nullptr);
-        const auto triangles =
-            findTexelTriangles(uvs.triangles(TextureWrap::repeat, options_.wrap_v), kSide, kSide, 2, parallel);
+        const auto triangles = findTexelTriangles(uvTriangles(low_.view().uvs, options_), kSide, kSide, 2, parallel);
         TracedTexels traced;
         traceTexels(*surfaces, *triangles, options_, work, traced);
         fillFromNeighbors(traced, triangles->shape);

@@ -47,7 +47,7 @@ UvMap randomMap(int least = -1200, int most = 1900) {
 /// Checks that the stored weights give the point of the UV plane at the texel's center.
 void expectCenter(const UvMap& map, const TexelTriangles& found, std::size_t texel) {
     const TexelPlace& place = found.places[texel];
-    const auto uvs = cornerUvs(map.triangles(), place.triangle);
+    const auto uvs = map.triangles()[place.triangle];
     const auto weights = weightsAt(map.triangles(), found.shape, place);
     RC_ASSERT(std::fabs(weights[0] + weights[1] + weights[2] - 1) < 1e-9);
     double u = 0, v = 0;
@@ -97,7 +97,7 @@ RC_GTEST_PROP(TexelTriangles, GiveTheCenterOfEachTexel, ()) {
 double nearestOf(const UvMap& map, const TextureShape& shape, std::size_t texel) {
     double least = INFINITY;
     for (std::size_t i = 0; i < map.corners.size() / 3; ++i) {
-        const auto uvs = cornerUvs(map.triangles(), i);
+        const auto uvs = map.triangles()[i];
         PlacedTriangle placed;
         if (placed.place(uvs, shape) != UvPlacing::placed || placed.doubleArea() == 0) continue;
         const ExactTriangle exact(uvs, placed, shape);
@@ -132,7 +132,7 @@ RC_GTEST_PROP(TexelTriangles, UseTheNearestTriangleInThePadding, ()) {
             continue;
         }
         const TexelPlace& place = found.places[texel];
-        const auto uvs = cornerUvs(map.triangles(), place.triangle);
+        const auto uvs = map.triangles()[place.triangle];
         PlacedTriangle placed;
         placed.place(uvs, found.shape);
         const double distance =

@@ -227,12 +227,9 @@ class OneMap {
         addMapCorners(*source.before, &use, viewers, options_.execution, one.from);
         addMapCorners(*source.after, &use, viewers, options_.execution, one.to);
         if (one.is_intended || one.from.uvs != one.to.uvs) one.from = one.to;
-        std::vector<std::uint32_t> corners(one.from.uvs.size());
-        for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
         one.texels = TexelMask(image.width, image.height);
         std::uint64_t steps = kCoverSteps;
-        coverTexels({.corners = corners, .uvs = one.from.uvs, .wrap_u = use.wrap_u, .wrap_v = use.wrap_v}, one.texels,
-                    steps);
+        coverTexels(uvTriangles(one.from.uvs, use), one.texels, steps);
     }
 
     const Bytes& file_;

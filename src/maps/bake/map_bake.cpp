@@ -39,11 +39,9 @@ class Baking {
         if (!surfaces) return std::move(surfaces).error();
         if (shared_ != nullptr) shared_->surface = surfaces->surface();
         reportStage("tracing");
-        const LowUvs uvs(low_, allocator_);
         const std::uint32_t padding = std::max(options_.padding, kFilterTexels);
-        std::optional<TexelTriangles> triangles =
-            findTexelTriangles(uvs.triangles(options_.wrap_u, options_.wrap_v), options_.width, options_.height,
-                               padding, parallel_, allocator_);
+        std::optional<TexelTriangles> triangles = findTexelTriangles(uvTriangles(low_.uvs, options_), options_.width,
+                                                                     options_.height, padding, parallel_, allocator_);
         if (!triangles)
             return makeError(ErrorCode::tooLarge, kNoElement,
                              "the UVs of the low poly cover the image too many times; scale them down");

@@ -40,8 +40,8 @@ class Solving {
     Solving(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint32_t points, const BakeOptions& options,
             const MapWork& work, TracedTexels& traced)
         : surfaces_(surfaces), plan_(plan), options_(options), work_(work), traced_(traced),
-          uvs_(surfaces.low(), work.allocator), bands_(uvs_.triangles(options.wrap_u, options.wrap_v), options.width,
-                                                       options.height, points, points / 2, work.allocator),
+          bands_(uvTriangles(surfaces.low().uvs, options), options.width, options.height, points, points / 2,
+                 work.allocator),
           points_{bands_, points},
           texels_(sharpenedTexels(plan, {traced.wanted.data(), traced.wanted.size()}, work.parallel, work.allocator)) {}
 
@@ -121,7 +121,6 @@ class Solving {
     const BakeOptions& options_;
     const MapWork& work_;
     TracedTexels& traced_;
-    LowUvs uvs_;
     SampleBands bands_;
     PointsBetween points_;
     /// initial texels; after a strip is solved, its rows contain the result

@@ -79,7 +79,6 @@ struct LayerTracing {
     const BakeOptions& options;
     const LayerOptions& layers;
     const MapWork& work;
-    LowUvs uvs{surfaces.low(), work.allocator};
     std::array<std::size_t, kMapLayerCount> numbers = {};  ///< index of each layer in `made`
     std::vector<BakedLayer> made = {};
     Buffer<TexelState> met = {};  ///< state of each texel, determined with the ray of its center
@@ -152,8 +151,8 @@ void addMaterial(LayerTracing& tracing, std::size_t texel, const ShownMaterial& 
 void traceMeans(LayerTracing& tracing) {
     tracing.sample_count = Buffer<std::uint16_t>(tracing.work.allocator, tracing.met.size(), std::uint16_t{0});
     const std::uint32_t n = samplingOf(tracing.options).points;
-    const SampleBands bands(tracing.uvs.triangles(tracing.options.wrap_u, tracing.options.wrap_v),
-                            tracing.options.width, tracing.options.height, n, 0, tracing.work.allocator);
+    const SampleBands bands(uvTriangles(tracing.surfaces.low().uvs, tracing.options), tracing.options.width,
+                            tracing.options.height, n, 0, tracing.work.allocator);
     const auto traceBand = [&](std::size_t band) {
         forHits(tracing, bands, band, [&](const GridPlace& at, const SurfaceHit& hit) {
             const std::size_t texel = std::size_t{at.row / n} * tracing.options.width + at.column / n;
@@ -212,7 +211,7 @@ void setLayers(LayerTracing& tracing, std::size_t texel, const LowPoint& point, 
 void traceCenters(LayerTracing& tracing) {
     constexpr std::size_t kRows = 4;
     const TextureShape& shape = tracing.triangles.shape;
-    const UvTriangles triangles = tracing.uvs.triangles(tracing.options.wrap_u, tracing.options.wrap_v);
+    const UvTriangles triangles = uvTriangles(tracing.surfaces.low().uvs, tracing.options);
     const auto trace = [&](std::size_t task) {
         double guess = 0;
         const auto query = [&](std::span<const LowPoint> points, std::span<const std::size_t> texels) {
@@ -267,8 +266,8 @@ void fitMaterial(LayerTracing& tracing, MapLayer layer) {
     const std::uint32_t n = samplingOf(tracing.options).points;
     TexelSystem system(tracing.work.allocator, tracing.options.width, tracing.options.height,
                        {rolesOf(tracing).data(), tracing.roles.size()});
-    const SampleBands bands(tracing.uvs.triangles(tracing.options.wrap_u, tracing.options.wrap_v),
-                            tracing.options.width, tracing.options.height, n, n / 2, tracing.work.allocator);
+    const SampleBands bands(uvTriangles(tracing.surfaces.low().uvs, tracing.options), tracing.options.width,
+                            tracing.options.height, n, n / 2, tracing.work.allocator);
     const auto traceBand = [&](std::size_t band) {
         forHits(tracing, bands, band, [&](const GridPlace& at, const SurfaceHit& hit) {
             const BetweenTexels x = betweenTexels(at.column, n, tracing.options.width, tracing.options.wrap_u),

@@ -71,8 +71,7 @@ class Tracing {
   public:
     Tracing(const MapSurfaces& surfaces, const TexelTriangles& triangles, const BakeOptions& options,
             const MapWork& work, TracedTexels& traced)
-        : surfaces_(surfaces), triangles_(triangles), options_(options), work_(work), traced_(traced),
-          uvs_(surfaces.low(), work.allocator) {}
+        : surfaces_(surfaces), triangles_(triangles), options_(options), work_(work), traced_(traced) {}
 
     void run() {
         const Allocator* const allocator = work_.allocator;
@@ -91,7 +90,7 @@ class Tracing {
 
   private:
     void traceInside() {
-        const SampleBands bands(uvs_.triangles(options_.wrap_u, options_.wrap_v), options_.width, options_.height, 1, 0,
+        const SampleBands bands(uvTriangles(surfaces_.low().uvs, options_), options_.width, options_.height, 1, 0,
                                 work_.allocator);
         const auto texelOf = [&](const BandSample& sample) {
             return std::size_t{sample.row} * options_.width + sample.column;
@@ -165,7 +164,7 @@ class Tracing {
 
     void traceBeside() {
         const TextureShape& shape = triangles_.shape;
-        const UvTriangles triangles = uvs_.triangles(options_.wrap_u, options_.wrap_v);
+        const UvTriangles triangles = uvTriangles(surfaces_.low().uvs, options_);
         constexpr std::size_t kRows = 8;
         const auto trace = [&](std::size_t task) {
             WantedVectors vectors(surfaces_, options_);
@@ -195,7 +194,6 @@ class Tracing {
     const BakeOptions& options_;
     const MapWork& work_;
     TracedTexels& traced_;
-    LowUvs uvs_;
     Buffer<std::uint16_t> votes_ = {};
     Buffer<Vec3> others_ = {};  ///< with ranks: sums of the target vectors of UV islands that do not own the texel
 };

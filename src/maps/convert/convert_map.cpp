@@ -109,7 +109,7 @@ Buffer<std::uint32_t> matchTriangles(const MapSide& side, const MapSide& other, 
 /// Calls visit(texel, place) for each texel whose center is inside a triangle.
 template <class Visit>
 void forEachTexel(const UvTriangles& triangles, std::size_t triangle, const TextureShape& shape, const Visit& visit) {
-    forEachSample(cornerUvs(triangles, triangle), shape, 1, [&](const UvSample& sample) {
+    forEachSample(triangles[triangle], shape, 1, [&](const UvSample& sample) {
         const auto x = static_cast<std::int64_t>(std::floor(sample.x));
         const auto y = static_cast<std::int64_t>(std::floor(sample.y));
         const std::uint32_t column = texelInImage(x, shape.width, shape.wrap_u);
@@ -152,8 +152,8 @@ class Conversion {
           // If only one side has frames, they are used for both sides.
           one_mesh_(!(hasFrames(from) && hasFrames(to))),
           main_(from.uvs.empty() || (to.space == MapSpace::tangent && from.space == MapSpace::object) ? to : from),
-          other_(&main_ == &from ? to : from), main_corners_(main_, allocator),
-          other_corners_(one_mesh_ ? MapSide{} : other_, allocator) {}
+          other_(&main_ == &from ? to : from), triangles_(uvTriangles(main_.uvs, map)),
+          other_triangles_(uvTriangles(other_.uvs, map)) {}
 
     Result<ConvertMapReport> run(const Progress& progress) {
         if (!main_.uvs.empty()) {
@@ -187,22 +187,21 @@ class Conversion {
   private:
     /// Finds the triangle of each texel. Returns false if that takes too much work.
     bool findPlaces() {
-        const UvTriangles triangles = main_corners_.triangles(map_);
         // Filters read texels that are at most two texels away from a triangle.
         const std::uint32_t padding = std::max<std::uint32_t>(options_.padding, 2);
-        auto places = findTexelTriangles(triangles, map_.width, map_.height, padding, parallel_, allocator_);
+        auto places = findTexelTriangles(triangles_, map_.width, map_.height, padding, parallel_, allocator_);
         if (!places) return false;
         places_ = std::move(*places);
         if (one_mesh_) return true;
         matches_ = matchTriangles(main_, other_, allocator_);
         if (!main_.positions.empty() && !other_.positions.empty()) size_ = PositionBox(main_.positions).diagonal();
         if (std::find(matches_.begin(), matches_.end(), kNoTriangle) == matches_.end()) return true;
-        const UvTriangles others = other_corners_.triangles(map_);
-        auto other_places = findTexelTriangles(others, map_.width, map_.height, padding, parallel_, allocator_);
+        auto other_places =
+            findTexelTriangles(other_triangles_, map_.width, map_.height, padding, parallel_, allocator_);
         if (!other_places) return false;
         other_places_ = std::move(*other_places);
         if (other_places_.counts.overlapping > 0 && !main_.positions.empty() && !other_.positions.empty())
-            chooseByPosition(main_, triangles, places_, other_, others, other_places_, allocator_);
+            chooseByPosition(main_, triangles_, places_, other_, other_triangles_, other_places_, allocator_);
         return true;
     }
 
@@ -280,15 +279,14 @@ class Conversion {
     /// Counts conflicts. Must be called before any texel is written, because `out_` may be the input.
     void countConflicts() {
         constexpr double kApartDeg = 2;
-        const UvTriangles triangles = main_corners_.triangles(map_);
         const TextureShape& shape = places_.shape;
         Buffer<bool> counted(allocator_, places_.kinds.size(), false);
         const auto directionAt = [&](std::size_t texel, const TexelPlace& place) {
-            const ShadingFrame frame = oneMeshFrame(from_, place.triangle, weightsAt(triangles, shape, place));
+            const ShadingFrame frame = oneMeshFrame(from_, place.triangle, weightsAt(triangles_, shape, place));
             return shadedNormal(frame, decodeTexel(map_.texels[texel], readingOf(from_)));
         };
         for (std::size_t triangle = 0; triangle < main_.uvs.count / 3; ++triangle) {
-            forEachTexel(triangles, triangle, shape, [&](std::size_t texel, const TexelPlace& place) {
+            forEachTexel(triangles_, triangle, shape, [&](std::size_t texel, const TexelPlace& place) {
                 if (places_.kinds[texel] != TexelCoverage::inside || !places_.overlaps[texel] || counted[texel]) return;
                 const TexelPlace& first = places_.places[texel];
                 if (first.triangle == triangle) return;
@@ -302,15 +300,15 @@ class Conversion {
     [[nodiscard]] bool isApart(const TexelPlace& place, const TexelPlace& other) const {
         if (!(size_ > 0)) return false;
         constexpr double kFar = 0.02;
-        const DVec3 apart = positionAt(main_, main_corners_.triangles(map_), places_.shape, place) -
-                            positionAt(other_, other_corners_.triangles(map_), places_.shape, other);
+        const DVec3 apart = positionAt(main_, triangles_, places_.shape, place) -
+                            positionAt(other_, other_triangles_, places_.shape, other);
         return dot(apart, apart) > kFar * kFar * size_ * size_;
     }
 
     /// Computes the source and target frame of a texel. Returns false if the other mesh has no triangle at the texel.
     [[nodiscard]] bool findFrames(std::size_t texel, ShadingFrame& from, ShadingFrame& to, Sums& sums) const {
         const TexelPlace& place = places_.places[texel];
-        const std::array<double, 3> weights = weightsAt(main_corners_.triangles(map_), places_.shape, place);
+        const std::array<double, 3> weights = weightsAt(triangles_, places_.shape, place);
         if (one_mesh_) {
             from = oneMeshFrame(from_, place.triangle, weights);
             to = oneMeshFrame(to_, place.triangle, weights);
@@ -322,8 +320,8 @@ class Conversion {
         if (other_place.triangle == kNoTriangle) return false;
         if (matches_[place.triangle] == kNoTriangle && isApart(place, other_place)) ++sums.apart;
         const ShadingFrame main_frame = sideFrame(main_, place.triangle, weights);
-        const ShadingFrame other_frame = sideFrame(
-            other_, other_place.triangle, weightsAt(other_corners_.triangles(map_), places_.shape, other_place));
+        const ShadingFrame other_frame =
+            sideFrame(other_, other_place.triangle, weightsAt(other_triangles_, places_.shape, other_place));
         from = &main_ == &from_ ? main_frame : other_frame;
         to = &main_ == &from_ ? other_frame : main_frame;
         return true;
@@ -367,7 +365,7 @@ class Conversion {
     Parallel& parallel_;
     bool one_mesh_;
     const MapSide &main_, &other_;  ///< texel positions refer to the triangles of main_
-    CornerTriangles main_corners_, other_corners_;
+    UvTriangles triangles_, other_triangles_;
     TexelTriangles places_ = {}, other_places_ = {};
     /// Converted vectors, and flags of the texels that are unchanged so far; used if integers are chosen jointly.
     Buffer<Vec3> vectors_ = {};

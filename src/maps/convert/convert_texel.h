@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Conversion of one texel from one frame and interpretation to another, and the UVs of one side of a conversion.
+// Conversion of one texel from one frame and interpretation to another.
 #pragma once
 
 #include <array>
@@ -38,28 +38,6 @@ Vec3 channelsOf(const DVec3& stored, const TexelNumbers& numbers);
 std::optional<ConvertedTexel> convertTexel(const Vec3& texel, const ShadingFrame& from, const MapReading& from_reading,
                                            const ShadingFrame& to, const MapReading& to_reading,
                                            const TexelNumbers& numbers);
-
-/// UVs of one side of a conversion, one per corner, as a list of triangles.
-struct CornerTriangles {
-    CornerTriangles(const MapSide& side, const Allocator* allocator)
-        : uvs(allocator, side.uvs.count), corners(allocator, side.uvs.count) {
-        for (std::size_t i = 0; i < uvs.size(); ++i) {
-            uvs[i] = side.uvs[i];
-            corners[i] = static_cast<std::uint32_t>(i);
-        }
-    }
-
-    [[nodiscard]] UvTriangles triangles(TextureWrap wrap_u, TextureWrap wrap_v) const {
-        return {.corners = {corners.data(), corners.size()},
-                .uvs = {uvs.data(), uvs.size()},
-                .wrap_u = wrap_u,
-                .wrap_v = wrap_v};
-    }
-    [[nodiscard]] UvTriangles triangles(const MapImage& map) const { return triangles(map.wrap_u, map.wrap_v); }
-
-    Buffer<Vec2> uvs;
-    Buffer<std::uint32_t> corners;
-};
 
 // The error of a map that was converted from one set of frames to another.
 

@@ -53,11 +53,10 @@ class Heights {
   public:
     Heights(const HeightMap& map, const MapSide& mesh, std::span<Vec3> out, const HeightToNormalOptions& options,
             const Allocator* allocator, Parallel& parallel)
-        : map_(map), mesh_(mesh), out_(out), options_(options), allocator_(allocator), parallel_(parallel),
-          corners_(mesh, allocator) {}
+        : map_(map), mesh_(mesh), out_(out), options_(options), allocator_(allocator), parallel_(parallel) {}
 
     Result<HeightToNormalReport> run() {
-        const UvTriangles triangles = corners_.triangles(map_.wrap_u, map_.wrap_v);
+        const UvTriangles triangles = uvTriangles(mesh_.uvs, map_);
         if (!mesh_.uvs.empty()) {
             // Filtering reads texels that are up to two texels away from a triangle.
             auto places = findTexelTriangles(triangles, map_.width, map_.height, 2, parallel_, allocator_);
@@ -185,7 +184,6 @@ class Heights {
     const HeightToNormalOptions& options_;
     const Allocator* allocator_;
     Parallel& parallel_;
-    CornerTriangles corners_;
     TexelTriangles places_ = {};
     HeightToNormalReport report_ = {};
 };

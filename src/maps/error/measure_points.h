@@ -57,7 +57,7 @@ class SampleBands {
                                                                                                   triangles.wrap_v},
           n_(n), shift_(shift), begin_(allocator, bandCount() + 1, std::size_t{0}),
           marks_(allocator, bandCount(), std::size_t{0}) {
-        const std::size_t count = triangles.corners.size() / 3;
+        const std::size_t count = triangles.size();
         for (std::size_t i = 0; i < count; ++i) forBands(i, [&](std::size_t band) { ++begin_[band]; });
         std::size_t total = 0;
         for (std::size_t band = 0; band <= bandCount(); ++band) total += std::exchange(begin_[band], total);
@@ -83,7 +83,7 @@ class SampleBands {
         const std::int64_t last = first + std::int64_t{rowCount(band)} * n_ - 1;
         const TexelRange parts[] = {{0, last - height}, {first, std::min(last, height - 1)}};
         for (std::size_t i = begin_[band]; i < begin_[band + 1]; ++i) {
-            const std::array<Vec2, 3> uvs = cornerUvs(triangles_, entries_[i]);
+            const std::array<Vec2, 3> uvs = triangles_[entries_[i]];
             PlacedTriangle placed;
             if (placed.place(uvs, grid_) != UvPlacing::placed) continue;
             const ExactTriangle exact(uvs, placed, shape_);
@@ -144,8 +144,7 @@ class SampleBands {
     template <class Visit>
     void forBands(std::size_t triangle, Visit&& visit) {
         PlacedTriangle placed;
-        if (placed.place(cornerUvs(triangles_, triangle), grid_) != UvPlacing::placed || placed.doubleArea() == 0)
-            return;
+        if (placed.place(triangles_[triangle], grid_) != UvPlacing::placed || placed.doubleArea() == 0) return;
         ++mark_;
         const auto visitOnce = [&](std::int64_t band) {
             std::size_t& mark = marks_[static_cast<std::size_t>(band)];

@@ -66,7 +66,7 @@ bool hasTwoEqual(TriangleSearch& search, const PlacedTriangle& placed) {
 /// Sets the rows of a triangle, and returns the amount of work for it.
 std::uint64_t placeRows(TriangleSearch& search, std::size_t i) {
     PlacedTriangle placed;
-    const UvPlacing placing = placed.place(cornerUvs(search.triangles, i), search.shape);
+    const UvPlacing placing = placed.place(search.triangles[i], search.shape);
     TexelTriangleCounts& counts = search.found.counts;
     if (placing == UvPlacing::notFinite) ++counts.not_finite;
     if (placing == UvPlacing::tooFar) ++counts.too_far;
@@ -112,7 +112,7 @@ void forBands(TriangleSearch& search, RowRange rows, const Visit& visit) {
 }
 
 bool listBands(TriangleSearch& search) {
-    const std::size_t count = search.triangles.corners.size() / 3;
+    const std::size_t count = search.triangles.size();
     search.rows = Buffer<RowRange>(search.allocator, count, RowRange{});
     search.begin = Buffer<std::size_t>(search.allocator, search.band_count + 1, std::size_t{0});
     std::uint64_t steps = 0;
@@ -167,13 +167,13 @@ TexelPlace placeOf(std::uint32_t triangle, std::int64_t column, std::int64_t row
 /// not an overlap.
 bool isInner(const TriangleSearch& search, const TexelPlace& place) {
     PlacedTriangle placed;
-    placed.place(cornerUvs(search.triangles, place.triangle), search.shape);
+    placed.place(search.triangles[place.triangle], search.shape);
     return placed.isInner(place.x, place.y);
 }
 
 void addInside(TriangleSearch& search, std::uint32_t triangle, std::size_t band) {
     PlacedTriangle placed;
-    placed.place(cornerUvs(search.triangles, triangle), search.shape);
+    placed.place(search.triangles[triangle], search.shape);
     const TexelRange own = placed.rows();
     const RowRange rows{static_cast<std::int32_t>(own.first), static_cast<std::int32_t>(own.last)};
     forRows(search, rows, band, [&](std::int64_t row, std::size_t image_row) {
@@ -193,7 +193,7 @@ void addInside(TriangleSearch& search, std::uint32_t triangle, std::size_t band)
 // -- 3. texels next to triangles --
 
 ExactTriangle exact(const TriangleSearch& search, std::uint32_t triangle) {
-    const std::array<Vec2, 3> uvs = cornerUvs(search.triangles, triangle);
+    const std::array<Vec2, 3> uvs = search.triangles[triangle];
     PlacedTriangle placed;
     placed.place(uvs, search.shape);
     return {uvs, placed, search.shape};
@@ -444,7 +444,7 @@ bool ExactTriangle::isReadAt(double px, double py) const {
 }
 
 std::array<double, 3> weightsAt(const UvTriangles& triangles, const TextureShape& shape, const TexelPlace& place) {
-    const std::array<Vec2, 3> uvs = cornerUvs(triangles, place.triangle);
+    const std::array<Vec2, 3> uvs = triangles[place.triangle];
     PlacedTriangle placed;
     placed.place(uvs, shape);
     return ExactTriangle(uvs, placed, shape).weights(place.x + 0.5, place.y + 0.5);

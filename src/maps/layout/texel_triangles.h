@@ -62,12 +62,6 @@ std::optional<TexelTriangles> findTexelTriangles(const UvTriangles& triangles, s
                                                  std::uint32_t height, std::uint32_t padding, Parallel& parallel,
                                                  const Allocator* allocator = nullptr);
 
-/// Returns the UVs of a triangle's corners.
-inline std::array<Vec2, 3> cornerUvs(const UvTriangles& triangles, std::size_t triangle) {
-    const std::uint32_t* const corners = triangles.corners.data() + 3 * triangle;
-    return {triangles.uvs[corners[0]], triangles.uvs[corners[1]], triangles.uvs[corners[2]]};
-}
-
 /// Triangle in unrounded texel coordinates, relative to the origin that PlacedTriangle chose.
 class ExactTriangle {
   public:

@@ -111,9 +111,8 @@ class Coverage {
           steps_(steps) {}
 
     bool run() {
-        const std::span<const std::uint32_t> corners = triangles_.corners;
-        for (std::size_t i = 0; i + 2 < corners.size() && !mask_.isWhole(); i += 3) {
-            addTriangle({triangles_.uvs[corners[i]], triangles_.uvs[corners[i + 1]], triangles_.uvs[corners[i + 2]]});
+        for (std::size_t i = 0; i < triangles_.size() && !mask_.isWhole(); ++i) {
+            addTriangle(triangles_[i]);
             if (steps_ != 0) continue;
             mask_.fillAll();
             return false;

@@ -2,7 +2,9 @@
 // Computes which texels of an image the triangles of a UV map cover.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -75,10 +77,25 @@ class TexelMask {
 
 /// Triangles of a UV map, with the wrap modes of its texture.
 struct UvTriangles {
-    std::span<const std::uint32_t> corners = {};  ///< three per triangle, each smaller than uvs.size()
-    std::span<const Vec2> uvs = {};               ///< one per vertex, after any transform; v points down
+    /// Vertices of the corners, three per triangle, each smaller than uvs.count. Without: each corner has its own UV.
+    std::optional<std::span<const std::uint32_t>> corners = {};
+    StridedSpan<const Vec2> uvs = {};  ///< one per vertex, after any transform; v points down
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
+
+    [[nodiscard]] std::size_t size() const { return (corners ? corners->size() : uvs.count) / 3; }
+    /// Returns the UVs of a triangle's corners.
+    [[nodiscard]] std::array<Vec2, 3> operator[](std::size_t triangle) const {
+        const std::size_t i = 3 * triangle;
+        if (!corners) return {uvs[i], uvs[i + 1], uvs[i + 2]};
+        return {uvs[(*corners)[i]], uvs[(*corners)[i + 1]], uvs[(*corners)[i + 2]]};
+    }
 };
+
+/// Returns the triangles of UVs, three per triangle, with the wrap modes of a texture.
+template <class Texture>
+UvTriangles uvTriangles(const StridedSpan<const Vec2>& uvs, const Texture& texture) {
+    return {.uvs = uvs, .wrap_u = texture.wrap_u, .wrap_v = texture.wrap_v};
+}
 
 /// Adds to the mask each texel whose center is inside a triangle or on its edge. UVs are rounded to 1/256 texel, and
 /// the rest is exact: triangles that share an edge leave no gap. Outside of 0 to 1 the wrap modes apply. Triangles are

@@ -359,12 +359,4 @@ CornerFrames MapSurfaces::corners(std::size_t triangle, const StridedSpan<const 
     return frames;
 }
 
-LowUvs::LowUvs(const LowPoly& low, const Allocator* allocator)
-    : corners(allocator, low.uvs.count), uvs(allocator, low.uvs.count) {
-    for (std::size_t i = 0; i < low.uvs.count; ++i) {
-        corners[i] = static_cast<std::uint32_t>(i);
-        uvs[i] = low.uvs[i];
-    }
-}
-
 }  // namespace tspace

@@ -171,18 +171,4 @@ void queryInBatches(const QueryPoints& query, const Body& body) {
     together.finish();
 }
 
-/// UVs of a low poly as a list of triangles.
-struct LowUvs {
-    explicit LowUvs(const LowPoly& low, const Allocator* allocator);
-    [[nodiscard]] UvTriangles triangles(TextureWrap wrap_u, TextureWrap wrap_v) const {
-        return {.corners = {corners.data(), corners.size()},
-                .uvs = {uvs.data(), uvs.size()},
-                .wrap_u = wrap_u,
-                .wrap_v = wrap_v};
-    }
-
-    Buffer<std::uint32_t> corners;
-    Buffer<Vec2> uvs;
-};
-
 }  // namespace tspace
