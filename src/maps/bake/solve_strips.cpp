@@ -40,8 +40,7 @@ class Solving {
     Solving(const MapSurfaces& surfaces, const TexelPlan& plan, std::uint32_t points, const BakeOptions& options,
             const MapWork& work, TracedTexels& traced)
         : surfaces_(surfaces), plan_(plan), options_(options), work_(work), traced_(traced),
-          bands_(uvTriangles(surfaces.low().uvs, options), options.width, options.height, points, points / 2,
-                 work.allocator),
+          bands_(uvTriangles(surfaces.low().uvs, options), options.width, options.height, points, points / 2),
           points_{bands_, points},
           texels_(sharpenedTexels(plan, {traced.wanted.data(), traced.wanted.size()}, work.parallel, work.allocator)) {}
 

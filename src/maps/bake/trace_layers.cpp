@@ -152,7 +152,7 @@ void traceMeans(LayerTracing& tracing) {
     tracing.sample_count = Buffer<std::uint16_t>(tracing.work.allocator, tracing.met.size(), std::uint16_t{0});
     const std::uint32_t n = samplingOf(tracing.options).points;
     const SampleBands bands(uvTriangles(tracing.surfaces.low().uvs, tracing.options), tracing.options.width,
-                            tracing.options.height, n, 0, tracing.work.allocator);
+                            tracing.options.height, n, 0);
     const auto traceBand = [&](std::size_t band) {
         forHits(tracing, bands, band, [&](const GridPlace& at, const SurfaceHit& hit) {
             const std::size_t texel = std::size_t{at.row / n} * tracing.options.width + at.column / n;
@@ -267,7 +267,7 @@ void fitMaterial(LayerTracing& tracing, MapLayer layer) {
     TexelSystem system(tracing.work.allocator, tracing.options.width, tracing.options.height,
                        {rolesOf(tracing).data(), tracing.roles.size()});
     const SampleBands bands(uvTriangles(tracing.surfaces.low().uvs, tracing.options), tracing.options.width,
-                            tracing.options.height, n, n / 2, tracing.work.allocator);
+                            tracing.options.height, n, n / 2);
     const auto traceBand = [&](std::size_t band) {
         forHits(tracing, bands, band, [&](const GridPlace& at, const SurfaceHit& hit) {
             const BetweenTexels x = betweenTexels(at.column, n, tracing.options.width, tracing.options.wrap_u),

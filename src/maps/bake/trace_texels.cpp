@@ -90,8 +90,7 @@ class Tracing {
 
   private:
     void traceInside() {
-        const SampleBands bands(uvTriangles(surfaces_.low().uvs, options_), options_.width, options_.height, 1, 0,
-                                work_.allocator);
+        const SampleBands bands(uvTriangles(surfaces_.low().uvs, options_), options_.width, options_.height, 1, 0);
         const auto texelOf = [&](const BandSample& sample) {
             return std::size_t{sample.row} * options_.width + sample.column;
         };

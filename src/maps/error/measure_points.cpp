@@ -186,7 +186,7 @@ void MeasurePoints::countPoints(MapError& error) const {
 std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, const MapCandidate& candidate,
                           const MapWork& work) {
     constexpr std::uint32_t kSide = 2;  // number of points per texel and axis
-    const SampleBands bands(uvTriangles(surfaces.low().uvs, map), map.width, map.height, kSide, 0, work.allocator);
+    const SampleBands bands(uvTriangles(surfaces.low().uvs, map), map.width, map.height, kSide, 0);
     const StridedSpan<const Vec4>& tangents = candidate.tangents.empty() ? surfaces.low().tangents : candidate.tangents;
     std::vector<float> heat(std::size_t{map.width} * map.height, 0);
     std::vector<std::uint16_t> counts(heat.size(), 0);

@@ -2,10 +2,9 @@
 // Points distributed over a low poly, the true normal at each, and the error of a map relative to them.
 #pragma once
 
-#include <utility>
-
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
+#include "maps/layout/row_bands.h"
 #include "maps/layout/texel_triangles.h"
 #include "maps/rays/map_surfaces.h"
 
@@ -51,25 +50,19 @@ class SampleBands {
     static constexpr std::uint32_t kBandTexels = 16;
 
     SampleBands(const UvTriangles& triangles, std::uint32_t width, std::uint32_t height, std::uint32_t n,
-                std::uint32_t shift, const Allocator* allocator)
+                std::uint32_t shift)
         : triangles_(triangles), shape_{width, height, triangles.wrap_u, triangles.wrap_v}, grid_{width * n, height * n,
                                                                                                   triangles.wrap_u,
                                                                                                   triangles.wrap_v},
-          n_(n), shift_(shift), begin_(allocator, bandCount() + 1, std::size_t{0}),
-          marks_(allocator, bandCount(), std::size_t{0}) {
-        const std::size_t count = triangles.size();
-        for (std::size_t i = 0; i < count; ++i) forBands(i, [&](std::size_t band) { ++begin_[band]; });
-        std::size_t total = 0;
-        for (std::size_t band = 0; band <= bandCount(); ++band) total += std::exchange(begin_[band], total);
-        entries_ = Buffer<std::uint32_t>(allocator, total);
-        Buffer<std::size_t> next(allocator, bandCount(), std::size_t{0});
-        for (std::size_t i = 0; i < count; ++i) {
-            forBands(i,
-                     [&](std::size_t band) { entries_[begin_[band] + next[band]++] = static_cast<std::uint32_t>(i); });
+          n_(n), shift_(shift), bands_(grid_, kBandTexels * n, shift) {
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            PlacedTriangle placed;
+            if (placed.place(triangles[i], grid_) == UvPlacing::placed && placed.doubleArea() != 0)
+                bands_.add(static_cast<std::uint32_t>(i), placed.rows());
         }
     }
 
-    [[nodiscard]] std::size_t bandCount() const { return (shape_.height + kBandTexels - 1) / kBandTexels; }
+    [[nodiscard]] std::size_t bandCount() const { return bands_.size(); }
     /// Returns the number of texel rows of a band.
     [[nodiscard]] std::uint32_t rowCount(std::size_t band) const {
         return std::min(kBandTexels, shape_.height - static_cast<std::uint32_t>(band) * kBandTexels);
@@ -82,10 +75,10 @@ class SampleBands {
         const std::int64_t first = std::int64_t{kBandTexels} * n_ * static_cast<std::int64_t>(band) + shift_;
         const std::int64_t last = first + std::int64_t{rowCount(band)} * n_ - 1;
         const TexelRange parts[] = {{0, last - height}, {first, std::min(last, height - 1)}};
-        for (std::size_t i = begin_[band]; i < begin_[band + 1]; ++i) {
-            const std::array<Vec2, 3> uvs = triangles_[entries_[i]];
+        for (const std::uint32_t triangle : bands_[band]) {
+            const std::array<Vec2, 3> uvs = triangles_[triangle];
             PlacedTriangle placed;
-            if (placed.place(uvs, grid_) != UvPlacing::placed) continue;
+            placed.place(uvs, grid_);
             const ExactTriangle exact(uvs, placed, shape_);
             const TexelRange rows = placed.rows();
             for (std::int64_t tile = floorDiv(rows.first, height); tile <= floorDiv(rows.last, height); ++tile) {
@@ -95,7 +88,7 @@ class SampleBands {
                     for (std::int64_t at = inside.first; at <= inside.last; at += kBlock) {
                         const TexelRange some{at, std::min(inside.last, at + kBlock - 1)};
                         visitRows(placed, some, tile * height + (flipped ? height - 1 : 0), flipped ? -1 : 1,
-                                  {.triangle = entries_[i], .exact = &exact}, visit);
+                                  {.triangle = triangle, .exact = &exact}, visit);
                     }
                 }
             }
@@ -139,38 +132,10 @@ class SampleBands {
         }
     }
 
-    /// Calls visit(band) once for each band in which the triangle has rows. Three tiles suffice: a triangle that
-    /// extends over more than two tiles covers all rows of a tile, and so all bands.
-    template <class Visit>
-    void forBands(std::size_t triangle, Visit&& visit) {
-        PlacedTriangle placed;
-        if (placed.place(triangles_[triangle], grid_) != UvPlacing::placed || placed.doubleArea() == 0) return;
-        ++mark_;
-        const auto visitOnce = [&](std::int64_t band) {
-            std::size_t& mark = marks_[static_cast<std::size_t>(band)];
-            if (mark != mark_) visit(static_cast<std::size_t>(band));
-            mark = mark_;
-        };
-        const TexelRange rows = placed.rows();
-        const std::int64_t height = grid_.height, band_rows = std::int64_t{kBandTexels} * n_;
-        const std::int64_t first_tile = floorDiv(rows.first, height);
-        for (std::int64_t tile = first_tile; tile <= std::min(floorDiv(rows.last, height), first_tile + 2); ++tile) {
-            const TexelRange inside = rowsOfTile(rows, tile, grid_.height, grid_.wrap_v, 0, height - 1);
-            if (inside.isEmpty()) continue;
-            if (inside.first < shift_) visitOnce(static_cast<std::int64_t>(bandCount()) - 1);
-            const std::int64_t begin = std::max<std::int64_t>(inside.first - shift_, 0);
-            for (std::int64_t band = begin / band_rows; band * band_rows <= inside.last - shift_; ++band)
-                visitOnce(band);
-        }
-    }
-
     UvTriangles triangles_;
     TextureShape shape_, grid_;
     std::uint32_t n_, shift_;
-    Buffer<std::size_t> begin_;
-    Buffer<std::uint32_t> entries_ = {};
-    Buffer<std::size_t> marks_;  ///< last triangle that was listed in each band
-    std::size_t mark_ = 0;
+    RowBands bands_;
 };
 
 /// Resources of a call: allocator, threads and progress.

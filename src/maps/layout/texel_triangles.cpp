@@ -8,8 +8,9 @@
 //   5. countTexels
 #include "maps/layout/texel_triangles.h"
 
-#include <unordered_map>
 #include <vector>
+
+#include "maps/layout/row_bands.h"
 
 namespace tspace {
 namespace {
@@ -19,19 +20,11 @@ constexpr std::uint32_t kBandRows = 64;
 /// chart reads no texel that is farther away than sqrt(2).
 constexpr double kNearTexels = 1.5;
 constexpr std::int64_t kNearRows = 2;
-/// Triangles with more than kLargeTriangleRows rows are remembered, at most kMostLarge of them, so that repeated ones
-/// can be skipped: many cards of one tree share the same part of an image.
-constexpr std::int64_t kLargeTriangleRows = 64;
-constexpr std::size_t kMostLarge = std::size_t{1} << 16;
 /// Number of texels per work step.
 constexpr std::uint64_t kTexelsOfStep = 16;
 /// Temporary states during the search of rings: the texel gets a triangle in this ring, or it is farther away than the
 /// padding.
 constexpr auto kPending = static_cast<TexelCoverage>(3), kRefused = static_cast<TexelCoverage>(4);
-
-struct RowRange {
-    std::int32_t first = 0, last = -1;
-};
 
 /// State of a search, which its steps share.
 struct TriangleSearch {
@@ -41,30 +34,21 @@ struct TriangleSearch {
     double near, padding;
     Parallel& parallel;
     const Allocator* allocator;
-    std::size_t band_count;
-    Buffer<RowRange> rows = {};  ///< rows in or near each triangle
-    Buffer<std::size_t> begin = {};
-    Buffer<std::uint32_t> entries = {};
-    Buffer<std::uint64_t> marks = {};
-    std::uint64_t mark = 0;
+    RowBands bands;
     Buffer<float> distances = {};
-    std::unordered_map<std::array<std::int64_t, 6>, std::uint32_t, HashPlacedKey> known = {};
+    LargeTriangles large = {};
 };
 
 // -- 1. bands of rows --
 
-/// Returns whether two earlier triangles have the same position as this one. The second triangle is not skipped, so
-/// that its overlap is counted.
-bool hasTwoEqual(TriangleSearch& search, const PlacedTriangle& placed) {
-    const std::array<std::int64_t, 6> key = placed.key();
-    const auto known = search.known.find(key);
-    if (known != search.known.end()) return ++known->second > 1;
-    if (search.known.size() < kMostLarge) search.known.emplace(key, 0U);
-    return false;
+/// Returns the rows in or near a triangle.
+TexelRange nearRows(const PlacedTriangle& placed) {
+    const TexelRange rows = placed.rows();
+    return {rows.first - kNearRows, rows.last + kNearRows};
 }
 
-/// Sets the rows of a triangle, and returns the amount of work for it.
-std::uint64_t placeRows(TriangleSearch& search, std::size_t i) {
+/// Lists a triangle in its bands, and returns the amount of work for it.
+std::uint64_t listTriangle(TriangleSearch& search, std::size_t i) {
     PlacedTriangle placed;
     const UvPlacing placing = placed.place(search.triangles[i], search.shape);
     TexelTriangleCounts& counts = search.found.counts;
@@ -76,77 +60,33 @@ std::uint64_t placeRows(TriangleSearch& search, std::size_t i) {
         ++counts.without_area;
         return 0;
     }
-    const TexelRange rows = placed.rows();
-    if (rows.last - rows.first >= kLargeTriangleRows && hasTwoEqual(search, placed)) {
+    // The second of several equal triangles is not skipped, so that its overlap is counted.
+    if (search.large.countEarlier(placed) > 1) {
         ++counts.repeated;
         return 0;
     }
-    search.rows[i] = {static_cast<std::int32_t>(rows.first - kNearRows),
-                      static_cast<std::int32_t>(rows.last + kNearRows)};
-    const auto row_count = static_cast<std::uint64_t>(search.rows[i].last - search.rows[i].first + 1);
-    return row_count + static_cast<std::uint64_t>(area) / (2 * kTexelParts * kTexelParts * kTexelsOfStep);
+    const TexelRange rows = nearRows(placed);
+    search.bands.add(static_cast<std::uint32_t>(i), rows);
+    return static_cast<std::uint64_t>(rows.last - rows.first + 1) +
+           static_cast<std::uint64_t>(area) / (2 * kTexelParts * kTexelParts * kTexelsOfStep);
 }
 
-/// Calls visit(band) once for each band. Three tiles suffice: a triangle that extends over more than two tiles covers
-/// all rows of a tile, and so all bands.
-template <class Visit>
-void forBands(TriangleSearch& search, RowRange rows, const Visit& visit) {
-    if (rows.last < rows.first) return;
-    ++search.mark;
-    if (search.marks.empty())
-        search.marks = Buffer<std::uint64_t>(search.allocator, search.band_count, std::uint64_t{0});
-    const std::int64_t height = search.shape.height;
-    const bool is_clamped = search.shape.wrap_v == TextureWrap::clamp;
-    std::int64_t tile = is_clamped ? 0 : floorDiv(rows.first, height);
-    const std::int64_t last_tile = is_clamped ? 0 : std::min(floorDiv(rows.last, height), tile + 2);
-    for (; tile <= last_tile; ++tile) {
-        const TexelRange inside =
-            rowsOfTile({rows.first, rows.last}, tile, search.shape.height, search.shape.wrap_v, 0, height - 1);
-        if (inside.isEmpty()) continue;
-        for (std::int64_t band = inside.first / kBandRows; band <= inside.last / kBandRows; ++band) {
-            std::uint64_t& mark = search.marks[static_cast<std::size_t>(band)];
-            if (mark != search.mark) visit(static_cast<std::size_t>(band));
-            mark = search.mark;
-        }
-    }
-}
-
+/// Returns false if the triangles would take too much work.
 bool listBands(TriangleSearch& search) {
-    const std::size_t count = search.triangles.size();
-    search.rows = Buffer<RowRange>(search.allocator, count, RowRange{});
-    search.begin = Buffer<std::size_t>(search.allocator, search.band_count + 1, std::size_t{0});
     std::uint64_t steps = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        steps += placeRows(search, i);
-        if (steps > kCoverSteps) return false;
-        forBands(search, search.rows[i], [&](std::size_t band) { ++search.begin[band]; });
-    }
-    std::size_t total = 0;
-    for (std::size_t band = 0; band <= search.band_count; ++band) total += std::exchange(search.begin[band], total);
-    search.entries = Buffer<std::uint32_t>(search.allocator, total);
-    Buffer<std::size_t> next(search.allocator, search.band_count, std::size_t{0});
-    for (std::size_t i = 0; i < count; ++i) {
-        forBands(search, search.rows[i], [&](std::size_t band) {
-            search.entries[search.begin[band] + next[band]++] = static_cast<std::uint32_t>(i);
-        });
-    }
-    return true;
-}
-
-std::span<const std::uint32_t> entries(const TriangleSearch& search, std::size_t band) {
-    return {search.entries.data() + search.begin[band], search.begin[band + 1] - search.begin[band]};
+    for (std::size_t i = 0; i < search.triangles.size() && steps <= kCoverSteps; ++i) steps += listTriangle(search, i);
+    return steps <= kCoverSteps;
 }
 
 // -- 2. texels inside triangles --
 
 /// Calls visit(row, row in the image) for the rows of a triangle in a band.
 template <class Visit>
-void forRows(const TriangleSearch& search, RowRange rows, std::size_t band, const Visit& visit) {
+void forRows(const TriangleSearch& search, TexelRange rows, std::size_t band, const Visit& visit) {
     const std::int64_t height = search.shape.height, first = static_cast<std::int64_t>(band) * kBandRows;
     const std::int64_t last = std::min(first + kBandRows, height) - 1;
     for (std::int64_t tile = floorDiv(rows.first, height); tile <= floorDiv(rows.last, height); ++tile) {
-        const TexelRange inside =
-            rowsOfTile({rows.first, rows.last}, tile, search.shape.height, search.shape.wrap_v, first, last);
+        const TexelRange inside = rowsOfTile(rows, tile, search.shape.height, search.shape.wrap_v, first, last);
         for (std::int64_t at = inside.first; at <= inside.last; ++at) {
             visit(tile * height + (isFlipped(tile, search.shape.wrap_v) ? height - 1 - at : at),
                   static_cast<std::size_t>(at));
@@ -174,9 +114,7 @@ bool isInner(const TriangleSearch& search, const TexelPlace& place) {
 void addInside(TriangleSearch& search, std::uint32_t triangle, std::size_t band) {
     PlacedTriangle placed;
     placed.place(search.triangles[triangle], search.shape);
-    const TexelRange own = placed.rows();
-    const RowRange rows{static_cast<std::int32_t>(own.first), static_cast<std::int32_t>(own.last)};
-    forRows(search, rows, band, [&](std::int64_t row, std::size_t image_row) {
+    forRows(search, placed.rows(), band, [&](std::int64_t row, std::size_t image_row) {
         forColumns(search, placed.columns(row), [&](std::int64_t column, std::size_t image_column) {
             const std::size_t texel = image_row * search.shape.width + image_column;
             if (search.found.kinds[texel] == TexelCoverage::none) {
@@ -192,9 +130,8 @@ void addInside(TriangleSearch& search, std::uint32_t triangle, std::size_t band)
 
 // -- 3. texels next to triangles --
 
-ExactTriangle exact(const TriangleSearch& search, std::uint32_t triangle) {
+ExactTriangle exact(const TriangleSearch& search, std::uint32_t triangle, PlacedTriangle& placed) {
     const std::array<Vec2, 3> uvs = search.triangles[triangle];
-    PlacedTriangle placed;
     placed.place(uvs, search.shape);
     return {uvs, placed, search.shape};
 }
@@ -224,8 +161,9 @@ TexelRange nearColumns(const ExactTriangle& corners, std::int64_t row) {
 }
 
 void addNear(TriangleSearch& search, std::uint32_t triangle, std::size_t band) {
-    const ExactTriangle corners = exact(search, triangle);
-    forRows(search, search.rows[triangle], band, [&](std::int64_t row, std::size_t image_row) {
+    PlacedTriangle placed;
+    const ExactTriangle corners = exact(search, triangle, placed);
+    forRows(search, nearRows(placed), band, [&](std::int64_t row, std::size_t image_row) {
         forColumns(search, nearColumns(corners, row), [&](std::int64_t column, std::size_t image_column) {
             const std::size_t texel = image_row * search.shape.width + image_column;
             if (search.found.kinds[texel] == TexelCoverage::inside) return;
@@ -294,7 +232,8 @@ TexelPlace placeFromNeighbors(const TriangleSearch& search, std::size_t texel) {
                     there.y - step(dy, there.y, search.shape.height, search.shape.wrap_v));
         if (here.triangle == last.triangle && here.x == last.x && here.y == last.y) return;
         last = here;
-        const double distance = exact(search, here.triangle).squaredDistance(here.x + 0.5, here.y + 0.5);
+        PlacedTriangle placed;
+        const double distance = exact(search, here.triangle, placed).squaredDistance(here.x + 0.5, here.y + 0.5);
         if (best.triangle == kNoTriangle ? distance > best_distance : distance >= best_distance) return;
         best = here;
         best_distance = distance;
@@ -350,10 +289,10 @@ bool findTriangles(TriangleSearch& search) {
     search.found.is_read = Buffer<bool>(search.allocator, texels, false);
     if (search.near > 0)
         search.distances = Buffer<float>(search.allocator, texels, static_cast<float>(search.near * search.near));
-    search.parallel.forTasks(search.band_count, [&](std::size_t band) {
-        for (const std::uint32_t triangle : entries(search, band)) addInside(search, triangle, band);
+    search.parallel.forTasks(search.bands.size(), [&](std::size_t band) {
+        for (const std::uint32_t triangle : search.bands[band]) addInside(search, triangle, band);
         if (search.near == 0) return;
-        for (const std::uint32_t triangle : entries(search, band)) addNear(search, triangle, band);
+        for (const std::uint32_t triangle : search.bands[band]) addNear(search, triangle, band);
     });
     if (search.padding > search.near) addRings(search);
     countTexels(search);
@@ -374,7 +313,7 @@ std::optional<TexelTriangles> findTexelTriangles(const UvTriangles& triangles, s
                           .padding = static_cast<double>(padding),
                           .parallel = parallel,
                           .allocator = allocator,
-                          .band_count = (found->shape.height + kBandRows - 1) / kBandRows};
+                          .bands = {found->shape, kBandRows}};
     if (!findTriangles(search)) found.reset();
     return found;
 }

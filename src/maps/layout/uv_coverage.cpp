@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <unordered_set>
 
 #include "maps/layout/uv_rows.h"
 
@@ -99,11 +98,6 @@ std::uint64_t TexelMask::count(const TexelRect& rect) const {
 
 namespace {
 
-/// Triangles with more than kLargeRows rows are remembered, at most kMostRemembered of them, so that repeated ones can
-/// be skipped: many cards of one tree share the same large part of an image.
-constexpr std::int64_t kLargeRows = 64;
-constexpr std::size_t kMostRemembered = std::size_t{1} << 16;
-
 class Coverage {
   public:
     Coverage(const UvTriangles& triangles, TexelMask& mask, std::uint64_t& steps)
@@ -123,9 +117,8 @@ class Coverage {
   private:
     void addTriangle(const std::array<Vec2, 3>& uvs) {
         PlacedTriangle triangle;
-        if (triangle.place(uvs, shape_) != UvPlacing::placed) return;
+        if (triangle.place(uvs, shape_) != UvPlacing::placed || large_.countEarlier(triangle) > 0) return;
         const TexelRange rows = triangle.rows();
-        if (rows.last - rows.first >= kLargeRows && isKnown(triangle)) return;
         for (std::int64_t row = rows.first; row <= rows.last; ++row) {
             take(1);
             const std::uint32_t at = texelInImage(row, shape_.height, shape_.wrap_v);
@@ -158,19 +151,11 @@ class Coverage {
 
     void take(std::uint64_t steps) { steps_ -= std::min(steps_, steps); }
 
-    /// Returns whether an equal triangle was seen before; otherwise remembers this one.
-    bool isKnown(const PlacedTriangle& triangle) {
-        const std::array<std::int64_t, 6> key = triangle.key();
-        if (known_.contains(key)) return true;
-        if (known_.size() < kMostRemembered) known_.insert(key);
-        return false;
-    }
-
     const UvTriangles& triangles_;
     TextureShape shape_;
     TexelMask& mask_;
     std::uint64_t& steps_;
-    std::unordered_set<std::array<std::int64_t, 6>, HashPlacedKey> known_ = {};
+    LargeTriangles large_ = {};
 };
 
 }  // namespace

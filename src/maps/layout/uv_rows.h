@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "core/base/unique_index.h"
 #include "maps/texels/texture_sample.h"
@@ -164,12 +165,27 @@ struct PlacedTriangle {
     }
 };
 
-struct HashPlacedKey {
-    std::size_t operator()(const std::array<std::int64_t, 6>& key) const {
-        std::uint64_t hash = 0;
-        for (const std::int64_t value : key) hash = foldHash(hash, static_cast<std::uint64_t>(value));
-        return static_cast<std::size_t>(hash);
+/// Large triangles, which are remembered so that repeated ones can be skipped: many cards of one tree share the same
+/// part of an image.
+class LargeTriangles {
+  public:
+    /// Returns the number of earlier triangles with equal corners, and remembers the triangle. Returns 0 for triangles
+    /// with few rows, and for those that exceed the memory.
+    std::uint32_t countEarlier(const PlacedTriangle& triangle) {
+        constexpr std::int64_t kLeastRows = 64;
+        constexpr std::size_t kMostRemembered = std::size_t{1} << 16;
+        const TexelRange rows = triangle.rows();
+        if (rows.last - rows.first < kLeastRows) return 0;
+        const std::uint32_t number =
+            earlier_.size() < kMostRemembered ? known_.indexOf(triangle.key()) : known_.find(triangle.key());
+        if (number < earlier_.size()) return ++earlier_[number];
+        if (number == earlier_.size()) earlier_.push_back(0);
+        return 0;
     }
+
+  private:
+    UniqueIndex<std::array<std::int64_t, 6>> known_{};
+    std::vector<std::uint32_t> earlier_ = {};  ///< number of earlier triangles for each number of `known_`
 };
 
 }  // namespace tspace
