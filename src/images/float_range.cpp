@@ -2,10 +2,12 @@
 // Prepares floats from an image file: fills texels that are not finite, and detects vectors in the range -1 to 1.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/base/fill_rings.h"
 #include "images/codecs.h"
 
 namespace tspace {
@@ -76,67 +78,39 @@ class RangeEvidence {
     double sum_x_ = 0, sum_y_ = 0, sum_z_ = 0;
 };
 
+/// Calls visit(texel) for a texel and those next to it.
+template <class Visit>
+void forAdjacentTexels(const FloatImage& image, std::size_t i, const Visit& visit) {
+    const std::size_t x = i % image.width, y = i / image.width;
+    for (std::size_t row = y == 0 ? 0 : y - 1; row < std::min<std::size_t>(y + 2, image.height); ++row) {
+        for (std::size_t column = x == 0 ? 0 : x - 1; column < std::min<std::size_t>(x + 2, image.width); ++column)
+            visit(row * image.width + column);
+    }
+}
+
 /// Fills texels that are not finite with the means of their finite neighbors, ring by ring from the border of each
-/// hole. If no texel is finite, all become gray, or flat in a map of vectors.
-class HoleFilling {
-  public:
-    HoleFilling(FloatImage& image, std::vector<bool> is_hole) : image_(image), is_hole_(std::move(is_hole)) {}
-
-    void run(const Vec3& otherwise) {
-        std::vector<bool> is_listed(is_hole_.size());
-        std::vector<std::size_t> ring, next;
-        for (std::size_t i = 0; i < is_hole_.size(); ++i) {
-            if (!is_hole_[i]) continue;
-            image_.texels[i] = otherwise;
-            bool is_border = false;
-            forNeighbors(i, [&](std::size_t near) { is_border = is_border || !is_hole_[near]; });
-            if (is_border) ring.push_back(i);
-            is_listed[i] = is_border;
-        }
-        for (; !ring.empty(); std::swap(ring, next)) {
-            next.clear();
-            std::vector<Vec3> means;
-            means.reserve(ring.size());
-            for (const std::size_t i : ring) means.push_back(meanAround(i));
-            for (std::size_t k = 0; k < ring.size(); ++k) {
-                image_.texels[ring[k]] = means[k];
-                is_hole_[ring[k]] = false;
-            }
-            for (const std::size_t i : ring) {
-                forNeighbors(i, [&](std::size_t near) {
-                    if (!is_hole_[near] || is_listed[near]) return;
-                    is_listed[near] = true;
-                    next.push_back(near);
-                });
-            }
-        }
-    }
-
-  private:
-    template <class Visit>
-    void forNeighbors(std::size_t i, const Visit& visit) const {
-        const std::size_t x = i % image_.width, y = i / image_.width;
-        for (std::size_t row = y == 0 ? 0 : y - 1; row < std::min<std::size_t>(y + 2, image_.height); ++row) {
-            for (std::size_t column = x == 0 ? 0 : x - 1; column < std::min<std::size_t>(x + 2, image_.width); ++column)
-                visit(row * image_.width + column);
-        }
-    }
-    [[nodiscard]] Vec3 meanAround(std::size_t i) const {
+/// hole. If no texel is finite, all become `otherwise`.
+void fillHoles(FloatImage& image, std::vector<bool> is_hole, const Vec3& otherwise) {
+    const auto meanAround = [&](std::size_t i) {
         double count = 0, x = 0, y = 0, z = 0;
-        forNeighbors(i, [&](std::size_t near) {
-            if (is_hole_[near]) return;
-            const Vec3& texel = image_.texels[near];
+        forAdjacentTexels(image, i, [&](std::size_t near) {
+            if (is_hole[near]) return;
+            const Vec3& texel = image.texels[near];
             ++count;
             x += static_cast<double>(texel.x);
             y += static_cast<double>(texel.y);
             z += static_cast<double>(texel.z);
         });
-        return {static_cast<float>(x / count), static_cast<float>(y / count), static_cast<float>(z / count)};
+        return std::optional(
+            Vec3{static_cast<float>(x / count), static_cast<float>(y / count), static_cast<float>(z / count)});
+    };
+    for (std::size_t i = 0; i < is_hole.size(); ++i) {
+        if (is_hole[i]) image.texels[i] = otherwise;
     }
-
-    FloatImage& image_;
-    std::vector<bool> is_hole_;
-};
+    fillRings(
+        is_hole, [&](std::size_t i, const auto& visit) { forAdjacentTexels(image, i, visit); }, meanAround,
+        [&](std::size_t i, const Vec3& mean) { image.texels[i] = mean; });
+}
 
 }  // namespace
 
@@ -167,8 +141,7 @@ void readFloats(ImageUse use, FloatImage& image) {
         }
     }
     if (image.not_finite == 0) return;
-    HoleFilling(image, std::move(is_broken))
-        .run(use == ImageUse::vectors ? Vec3{0.5F, 0.5F, 1} : Vec3{0.5F, 0.5F, 0.5F});
+    fillHoles(image, std::move(is_broken), use == ImageUse::vectors ? Vec3{0.5F, 0.5F, 1} : Vec3{0.5F, 0.5F, 0.5F});
 }
 
 std::uint8_t roundedChannel(float channel) {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "maps/bake/trace_texels.h"
 
+#include <optional>
+#include <vector>
+
+#include "core/base/fill_rings.h"
 #include "core/base/vec_math.h"
 #include "maps/bake/texel_plan.h"
 #include "maps/error/measure_points.h"
@@ -312,20 +316,14 @@ void addSmoothCells(const TexelPlan& plan, const TexelWindow& window, std::span<
 
 void fillFromNeighbors(TracedTexels& traced, const TextureShape& shape) {
     Buffer<Vec3>& wanted = traced.wanted;
-    std::vector<std::size_t> empty, next;
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-        if (traced.origins[i] != TexelOrigin::background && isZero(wanted[i])) empty.push_back(i);
-    }
+    std::vector<bool> is_missing(wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        is_missing[i] = traced.origins[i] != TexelOrigin::background && isZero(wanted[i]);
     // The first ring is extrapolated from the two nearest texels in each direction, because filtering at the rim of a
     // chart reads it. Farther rings use the mean of their neighbors, which cannot overshoot.
     bool is_first_ring = true;
-    const auto meanAround = [&](std::size_t texel) {
-        const auto x = static_cast<std::int64_t>(texel % shape.width),
-                   y = static_cast<std::int64_t>(texel / shape.width);
-        const auto at = [&](int dx, int dy) {
-            return toDouble(wanted[std::size_t{wrappedTexel(y + dy, shape.height, shape.wrap_v)} * shape.width +
-                                   wrappedTexel(x + dx, shape.width, shape.wrap_u)]);
-        };
+    const auto meanAround = [&](std::size_t texel) -> std::optional<Vec3> {
+        const auto at = [&](int dx, int dy) { return toDouble(wanted[texelBeside(shape, texel, dx, dy)]); };
         DVec3 sum{}, ahead{};
         for (const int dy : {-1, 0, 1}) {
             for (const int dx : {-1, 0, 1}) {
@@ -336,21 +334,14 @@ void fillFromNeighbors(TracedTexels& traced, const TextureShape& shape) {
             }
         }
         if (is_first_ring && normalize(ahead)) return toFloat(ahead);
-        return normalize(sum) ? toFloat(sum) : Vec3{};
+        return normalize(sum) ? std::optional(toFloat(sum)) : std::nullopt;
     };
-    std::vector<Vec3> means;
-    while (!empty.empty()) {
-        means.clear();
-        for (const std::size_t texel : empty) means.push_back(meanAround(texel));
-        next.clear();
-        for (std::size_t i = 0; i < empty.size(); ++i) {
-            wanted[empty[i]] = means[i];
-            if (isZero(means[i])) next.push_back(empty[i]);
-        }
-        if (next.size() == empty.size()) break;
-        empty.swap(next);
-        is_first_ring = false;
-    }
+    fillRings(
+        is_missing, [&](std::size_t texel, const auto& visit) { forTexelsAround(shape, texel, visit); }, meanAround,
+        [&](std::size_t texel, const Vec3& mean) {
+            wanted[texel] = mean;
+            is_first_ring = false;
+        });
     for (Vec3& vector : wanted) {
         if (isZero(vector)) vector = {0, 0, 1};
     }

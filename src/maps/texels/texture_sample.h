@@ -32,6 +32,21 @@ inline std::uint32_t wrappedTexel(std::int64_t at, std::uint32_t size, TextureWr
     return static_cast<std::uint32_t>(inside < count ? inside : period - 1 - inside);
 }
 
+/// Returns the index (y * width + x) of the texel that is `dx` columns and `dy` rows from another one.
+inline std::size_t texelBeside(const TextureShape& shape, std::size_t texel, int dx, int dy) {
+    const auto x = static_cast<std::int64_t>(texel % shape.width), y = static_cast<std::int64_t>(texel / shape.width);
+    return std::size_t{wrappedTexel(y + dy, shape.height, shape.wrap_v)} * shape.width +
+           wrappedTexel(x + dx, shape.width, shape.wrap_u);
+}
+
+/// Calls visit(texel) for the 3 x 3 texels around a texel.
+template <class Visit>
+void forTexelsAround(const TextureShape& shape, std::size_t texel, const Visit& visit) {
+    for (const int dy : {-1, 0, 1}) {
+        for (const int dx : {-1, 0, 1}) visit(texelBeside(shape, texel, dx, dy));
+    }
+}
+
 /// Indices (y * width + x) and weights of the four texels of a bilinear sample; the weights sum to 1.
 struct BilinearTaps {
     std::array<std::size_t, 4> texels = {};
