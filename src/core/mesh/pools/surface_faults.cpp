@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Detection of triangle faults. Triangles wound against their neighbors are found by union-find: each triangle stores
-// whether its winding equals that of the root of its set.
+// Detection of triangle faults. Triangles wound against their neighbors are found by union-find.
 #include "core/mesh/pools/primitive.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "core/base/disjoint_sets.h"
+#include "core/base/mesh_loops.h"
 #include "core/base/near_positions.h"
 #include "core/base/parallel.h"
 #include "core/base/sort.h"
@@ -32,44 +33,26 @@ struct WindingCounts {
     std::uint64_t two_sided_count = 0;
 };
 
-class WoundSets {
-  public:
-    explicit WoundSets(std::size_t count) : parents_(count), turned_(count, 0) {
-        for (std::uint32_t i = 0; i < count; ++i) parents_[i] = i;
-    }
+/// Joins two triangles with equal or opposite winding. Member 2 t of the sets is triangle t, and 2 t + 1 is the
+/// triangle turned over. A relation that contradicts earlier ones is ignored: a surface may have only one side.
+void joinWound(std::vector<std::uint32_t>& parents, std::uint32_t a, std::uint32_t b, bool alike) {
+    const std::uint32_t same = 2 * b + (alike ? 0 : 1), opposite = same ^ 1U;
+    if (rootOf(parents.data(), 2 * a) == rootOf(parents.data(), opposite)) return;
+    joinSets(parents.data(), 2 * a, same);
+    joinSets(parents.data(), 2 * a + 1, opposite);
+}
 
-    /// Returns the root, and whether the triangle is wound opposite to it.
-    std::pair<std::uint32_t, bool> find(std::uint32_t triangle) {
-        bool turned = false;
-        std::uint32_t root = triangle;
-        for (; parents_[root] != root; root = parents_[root]) turned = turned != (turned_[root] != 0);
-        bool rest = turned;
-        for (std::uint32_t i = triangle; parents_[i] != i;) {
-            const std::uint32_t next = std::exchange(parents_[i], root);
-            const bool own = std::exchange(turned_[i], std::uint8_t{rest}) != 0;
-            rest = rest != own;
-            i = next;
-        }
-        return {root, turned};
+/// Returns the number of triangles with the minority winding of their component.
+std::uint64_t countTurned(std::vector<std::uint32_t>& parents) {
+    std::vector<std::uint32_t> counts(parents.size());
+    for (std::uint32_t member = 0; member < parents.size(); member += 2) ++counts[rootOf(parents.data(), member)];
+    // The lowest triangle t of a component is a root, and so is its turned copy.
+    std::uint64_t turned = 0;
+    for (std::uint32_t member = 0; member < parents.size(); member += 2) {
+        if (parents[member] == member) turned += std::min(counts[member], counts[member + 1]);
     }
-    /// Joins the sets of two triangles with equal or opposite winding.
-    void join(std::uint32_t a, std::uint32_t b, bool alike) {
-        const auto [root_a, turned_a] = find(a);
-        const auto [root_b, turned_b] = find(b);
-        if (root_a == root_b) return;
-        parents_[root_b] = root_a;
-        turned_[root_b] = std::uint8_t{(turned_a != turned_b) == alike};
-    }
-
-  private:
-    std::vector<std::uint32_t> parents_;
-    std::vector<std::uint8_t> turned_;
-};
-
-struct EdgeUse {
-    std::uint32_t low, high, triangle;
-    bool is_forward;
-};
+    return turned;
+}
 
 /// A face (triangle or quad) with its points in a canonical order, equal for both windings.
 template <std::size_t count>
@@ -107,22 +90,29 @@ class Sheets {
            std::span<const std::uint32_t> points)
         : positions_(positions), corners_(corners), points_(points) {}
 
-    [[nodiscard]] std::uint64_t count(std::span<const EdgeUse> edges) const {
+    /// Adds the quad of two triangles that share an edge, if it is flat. Others are rejected: the two pairs of faces of
+    /// a tetrahedron also share four points, but are no two-sided sheet. `from` and `back`: the corners at which the
+    /// edge starts in each triangle; `from` is the one of its lower point.
+    void addQuad(std::uint32_t from, std::uint32_t back) {
+        constexpr double kFlat = 1e-6;
+        if (isCollapsed(from / 3) || isCollapsed(back / 3)) return;
+        const std::uint32_t c = across(from), d = across(back), first = from / 3 * 3;
+        const auto edge = [&](std::uint32_t corner) {
+            return toDouble(positions_[corners_[corner]]) - toDouble(positions_[corners_[first]]);
+        };
+        const DVec3 normal = cross(edge(first + 1), edge(first + 2)), e = edge(d);
+        if (std::fabs(dot(normal, e)) > kFlat * length(normal) * length(e)) return;
+        quads_.push_back({{points_[from], points_[d], points_[back], points_[c]}, {from / 3, back / 3}});
+    }
+
+    [[nodiscard]] std::uint64_t count() {
         std::vector<bool> marked(corners_.size() / 3, false);
         std::vector<Side<3>> triangles;
         for (std::uint32_t t = 0; t < marked.size(); ++t) {
-            const std::array<std::uint32_t, 3> p = {at(t, 0), at(t, 1), at(t, 2)};
-            if (p[0] != p[1] && p[1] != p[2] && p[2] != p[0]) triangles.push_back({p, {t, t}});
+            if (!isCollapsed(t)) triangles.push_back({{at(t, 0), at(t, 1), at(t, 2)}, {t, t}});
         }
         markTwoSided(triangles, marked);
-        std::vector<Side<4>> quads;
-        for (std::size_t i = 0, past = 0; i < edges.size(); i = past) {
-            while (past < edges.size() && edges[past].low == edges[i].low && edges[past].high == edges[i].high) ++past;
-            if (past - i != 2 || edges[i].is_forward == edges[i + 1].is_forward) continue;
-            addQuad(edges[i].is_forward ? edges[i] : edges[i + 1], edges[i].is_forward ? edges[i + 1] : edges[i],
-                    quads);
-        }
-        markTwoSided(quads, marked);
+        markTwoSided(quads_, marked);
         return static_cast<std::uint64_t>(std::count(marked.begin(), marked.end(), true));
     }
 
@@ -130,69 +120,41 @@ class Sheets {
     [[nodiscard]] std::uint32_t at(std::uint32_t triangle, std::size_t k) const {
         return points_[3 * std::size_t{triangle} + k];
     }
-    /// Returns the corner opposite to an edge.
-    [[nodiscard]] std::size_t across(const EdgeUse& edge) const {
-        std::size_t c = 3 * std::size_t{edge.triangle};
-        while (points_[c] == edge.low || points_[c] == edge.high) ++c;
-        return c;
-    }
+    /// Returns the corner opposite to the edge that starts at a corner.
+    static std::uint32_t across(std::uint32_t corner) { return corner / 3 * 3 + (corner + 2) % 3; }
     [[nodiscard]] bool isCollapsed(std::uint32_t t) const {
         return at(t, 0) == at(t, 1) || at(t, 1) == at(t, 2) || at(t, 2) == at(t, 0);
     }
 
-    /// Adds a quad if it is flat. Others are rejected: the two pairs of faces of a tetrahedron also share four points,
-    /// but are no two-sided sheet. `from` runs from the point with the lower index to the other one.
-    void addQuad(const EdgeUse& from, const EdgeUse& back, std::vector<Side<4>>& quads) const {
-        constexpr double kFlat = 1e-6;
-        if (isCollapsed(from.triangle) || isCollapsed(back.triangle)) return;
-        const std::size_t c = across(from), d = across(back);
-        const auto edge = [&](std::size_t corner, std::size_t other) {
-            return toDouble(positions_[corners_[corner]]) - toDouble(positions_[corners_[other]]);
-        };
-        const std::size_t first = c / 3 * 3;
-        const DVec3 a = edge(first + 1, first), b = edge(first + 2, first), e = edge(d, first);
-        const DVec3 normal = cross(a, b);
-        if (std::fabs(dot(normal, e)) > kFlat * length(normal) * length(e)) return;
-        quads.push_back({{from.low, points_[d], from.high, points_[c]}, {from.triangle, back.triangle}});
-    }
-
     StridedSpan<const Vec3> positions_;
     std::span<const std::uint32_t> corners_, points_;
+    std::vector<Side<4>> quads_ = {};
 };
 
 /// Counts winding faults. `corners`: three per triangle. Positions are compared exactly, but -0 equals 0. O(n log n);
-/// 200 bytes per triangle and 20 per vertex temporarily.
+/// 150 bytes per triangle and 24 per vertex temporarily.
 WindingCounts countWinding(const StridedSpan<const Vec3>& positions, std::span<const std::uint32_t> corners) {
     UniqueIndex<std::array<std::uint32_t, 3>> places(positions.count);
     std::vector<std::uint32_t> points(corners.size());
     for (std::size_t c = 0; c < corners.size(); ++c) points[c] = places.indexOf(positionKey(positions[corners[c]]));
-    std::vector<EdgeUse> edges;
-    edges.reserve(corners.size());
-    const auto triangle_count = static_cast<std::uint32_t>(corners.size() / 3);
-    for (std::uint32_t t = 0; t < triangle_count; ++t) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = points[3 * std::size_t{t} + k], b = points[3 * std::size_t{t} + (k + 1) % 3];
-            if (a != b) edges.push_back({std::min(a, b), std::max(a, b), t, a < b});
+    const auto forHalves = [&](const auto& add) {
+        for (std::uint32_t c = 0; c < points.size(); ++c) {
+            const std::uint32_t a = points[c], b = points[c % 3 == 2 ? c - 2 : c + 1];
+            if (a != b) add(std::min(a, b), std::max(a, b), c);
         }
-    }
-    sortList(edges.begin(), edges.end(), [](const EdgeUse& a, const EdgeUse& b) {
-        return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-    });
-    WoundSets sets(triangle_count);
-    for (std::size_t i = 0, past = 0; i < edges.size(); i = past) {
-        while (past < edges.size() && edges[past].low == edges[i].low && edges[past].high == edges[i].high) ++past;
-        if (past - i != 2) continue;
-        sets.join(edges[i].triangle, edges[i + 1].triangle, edges[i].is_forward != edges[i + 1].is_forward);
-    }
-    std::vector<std::array<std::uint64_t, 2>> ways(triangle_count);
-    for (std::uint32_t t = 0; t < triangle_count; ++t) {
-        const auto [root, turned] = sets.find(t);
-        ++ways[root][turned ? 1 : 0];
-    }
-    WindingCounts winding;
-    for (const auto& [as_root, other] : ways) winding.turned_count += std::min(as_root, other);
-    winding.two_sided_count = Sheets(positions, corners, points).count(edges);
-    return winding;
+    };
+    std::vector<std::uint32_t> parents(corners.size() / 3 * 2);
+    std::iota(parents.begin(), parents.end(), 0U);
+    Sheets sheets(positions, corners, points);
+    forEachEdge(places.size(), nullptr, forHalves,
+                [&](std::uint32_t low, std::uint32_t, std::span<const HalfEdge> halves) {
+                    if (halves.size() != 2) return;
+                    const std::uint32_t first = cornerOf(halves[0]), second = cornerOf(halves[1]);
+                    const bool is_forward = points[first] == low, alike = is_forward != (points[second] == low);
+                    joinWound(parents, first / 3, second / 3, alike);
+                    if (alike) sheets.addQuad(is_forward ? first : second, is_forward ? second : first);
+                });
+    return {countTurned(parents), sheets.count()};
 }
 
 /// Counts the faults of one primitive. `positions` come from NearMesh, because neighbors are found by equal positions.
