@@ -77,12 +77,6 @@ Float4 toFloat4(const DVec3& v) {
 }
 
 /// Approximates exp(-x) for x >= 0; 0 from 16 on. Avoids library functions whose last bits differ between C libraries.
-float decay(float x) {
-    float y = std::max(0.0f, 1 - x * (1.0f / 16));
-    for (int i = 0; i < 4; ++i) y *= y;
-    return y;
-}
-
 Float4 decay(Float4 x) {
     Float4 y = max4(splat(1.0f) - x * splat(1.0f / 16), splat(0.0f));
     for (int i = 0; i < 4; ++i) y *= y;
@@ -196,36 +190,36 @@ Histogram histogram(const CreaseFinder& finder) {
 /// needed.
 bool mayBeNoisy(const Histogram& angles) { return angles.lengths[0] + angles.lengths[1] < angles.all / 2; }
 
-/// Returns whether all faces are triangles, also if each face has its own size, as in OBJ files.
-bool areAllTriangles(const CreaseFinder& finder) {
-    const auto& sizes = finder.call.mesh.face_sizes;
-    return finder.call.are_triangles ||
-           (!sizes.empty() && std::all_of(sizes.begin(), sizes.end(), [](std::uint32_t size) { return size == 3; }));
-}
-
-/// Computes filterFaces for four triangles at a time, one per lane, with identical bits: 62 instead of 149 instructions
-/// per triangle and pass (callgrind, a torus of 32,000 triangles).
+/// Filters four faces at a time, one per lane: 62 instead of 149 instructions per triangle and pass (callgrind, a torus
+/// of 32,000 triangles).
 template <class NearOf>
-void filterTriangles(CreaseFinder& finder, const NearOf& nearOf, float per_turn, int passes) {
+void filterFaces(CreaseFinder& finder, const NearOf& nearOf, float per_turn, int passes) {
     struct Around {
-        std::uint32_t faces[3][4];
-        float weights[3][4];
+        std::uint32_t faces[4];
+        float weights[4];
     };
     const std::size_t count = finder.call.mesh.faceCount(), fours = paddedCount(finder) / 4;
-    Buffer<Around> around(finder.call.allocator, fours);
     const auto forFours = [&](const auto& body) {
         finder.call.parallel.forRanges(fours, Parallel::kGrain / 16, [&](std::size_t begin, std::size_t end) {
             for (std::size_t four = begin; four < end; ++four) body(four);
         });
     };
+    // As many entries as the largest of the four faces has corners; the weights of its neighbors remain 0.
+    Buffer<std::size_t> ends(finder.call.allocator, fours + 1, std::size_t{0});
+    forEachFace(finder.call.mesh, [&](std::size_t face, std::size_t, std::size_t size) {
+        ends[face / 4 + 1] = std::max(ends[face / 4 + 1], size);
+    });
+    for (std::size_t four = 0; four < fours; ++four) ends[four + 1] += ends[four];
+    Buffer<Around> around(finder.call.allocator, ends[fours], Around{});
     forFours([&](std::size_t four) {
-        Around& to = around[four];
-        for (std::size_t lane = 0; lane < 4; ++lane) {
-            const std::size_t face = 4 * four + lane;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Near near = face < count ? nearOf(static_cast<std::uint32_t>(3 * face + k)) : Near{0, 0};
-                to.faces[k][lane] = near.face;
-                to.weights[k][lane] = near.weight;
+        for (std::size_t lane = 0; lane < std::min<std::size_t>(4, count - 4 * four); ++lane) {
+            const auto face = static_cast<std::uint32_t>(4 * four + lane);
+            const std::uint32_t first = finder.call.faces.first(face), past = finder.call.faces.past(face);
+            for (std::uint32_t c = first; c < past; ++c) {
+                const Near near = nearOf(c);
+                Around& to = around[ends[four] + c - first];
+                to.faces[lane] = near.face;
+                to.weights[lane] = near.weight;
             }
         }
     });
@@ -235,15 +229,14 @@ void filterTriangles(CreaseFinder& finder, const NearOf& nearOf, float per_turn,
         const float* const from = before.data();
         const auto row = [from](std::size_t face) { return loadFloat4(from + 4 * face); };
         forFours([&](std::size_t four) {
-            const Around& near = around[four];
             const Columns own(row(4 * four), row(4 * four + 1), row(4 * four + 2), row(4 * four + 3));
             Vec3x4 sum = own.fourths * own.vectors;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t* const faces = near.faces[k];
+            for (std::size_t i = ends[four]; i < ends[four + 1]; ++i) {
+                const std::uint32_t* const faces = around[i].faces;
                 const Columns other(row(faces[0]), row(faces[1]), row(faces[2]), row(faces[3]));
                 const Vec3x4 turn = other.vectors - own.vectors;
                 const Float4 alike = decay(splat(per_turn) * dot(turn, turn));
-                sum = sum + (loadFloat4(near.weights[k]) * alike) * other.vectors;
+                sum = sum + (loadFloat4(around[i].weights) * alike) * other.vectors;
             }
             const Float4 square = dot(sum, sum);
             const Vec3x4 unit = (splat(1.0f) / sqrt4(square)) * sum;
@@ -253,29 +246,6 @@ void filterTriangles(CreaseFinder& finder, const NearOf& nearOf, float per_turn,
             transpose4(rows[0], rows[1], rows[2], rows[3]);
             for (std::size_t lane = 0; lane < 4; ++lane)
                 storeFloat4(finder.normals.data() + 4 * (4 * four + lane), rows[lane]);
-        });
-    }
-}
-
-template <class NearOf>
-void filterFaces(CreaseFinder& finder, const NearOf& nearOf, float per_turn, int passes) {
-    Buffer<Near> near(finder.call.allocator, finder.call.mesh.cornerCount());
-    forCorners(finder, [&](std::uint32_t c) { near[c] = nearOf(c); });
-    Buffer<float> before(finder.call.allocator, finder.normals.size());
-    for (int pass = 0; pass < passes; ++pass) {
-        std::swap(finder.normals, before);
-        const float* const from = before.data();
-        forFaces(finder, [&](std::uint32_t f) {
-            const Float4 own = loadFloat4(from + 4 * std::size_t{f});
-            Float4 sum = splat(own[3]) * own;
-            for (std::uint32_t c = finder.call.faces.first(f), past = finder.call.faces.past(f); c < past; ++c) {
-                const Float4 other = loadFloat4(from + 4 * std::size_t{near[c].face}), turn = other - own;
-                sum += splat(near[c].weight * decay(per_turn * dotted(turn, turn))) * other;
-            }
-            const float square = dotted(sum, sum);
-            Float4 mean_normal = square > 0 && std::isfinite(square) ? splat(1 / std::sqrt(square)) * sum : own;
-            mean_normal[3] = own[3];
-            storeFloat4(finder.normals.data() + 4 * std::size_t{f}, mean_normal);
         });
     }
 }
@@ -312,13 +282,10 @@ void filterNormals(CreaseFinder& finder) {
         const std::uint32_t f = finder.call.faces.of(c),
                             g = finder.pairs.other(c) == kNoPair ? f : finder.call.faces.of(finder.pairs.other(c));
         const Float4 apart = center(g) - center(f);
-        return Near{g, g == f ? 0 : filteredNormal(finder, g)[3] * decay(per_place * dotted(apart, apart))};
+        return Near{g, g == f ? 0 : filteredNormal(finder, g)[3] * decay(splat(per_place * dotted(apart, apart)))[0]};
     };
     const int passes = finder.noise_deg < kLoudDeg / 2 ? 8 : finder.noise_deg < kLoudDeg ? 16 : 32;
-    if (areAllTriangles(finder))
-        filterTriangles(finder, nearOf, per_turn, passes);
-    else
-        filterFaces(finder, nearOf, per_turn, passes);
+    filterFaces(finder, nearOf, per_turn, passes);
 }
 
 /// Returns whether edges with angles of up to 8 degrees have less than a quarter of the total edge length. In shapes
