@@ -36,7 +36,7 @@ struct Row {
     Pack pack;
 };
 
-Pack blocks(BlockFormat format, BlockQuality quality, bool is_signed = false) {
+Pack blocks(TextureFormat format, TextureQuality quality, bool is_signed = false) {
     return [=](const NormalLevel& level, Parallel& parallel) {
         std::vector<Vec3> texels;
         for (const Vec2& texel : fitBlocks(level, {format, is_signed, quality}, parallel).texels)
@@ -127,7 +127,7 @@ std::vector<Vec3> bySquish(const NormalLevel& level, Parallel&) {
 
 /// Compresses with the library astcenc. `fits`: first optimizes x and y for filtering; otherwise they are compressed
 /// unchanged.
-Pack astc(AstcEffort effort, bool fits) {
+Pack astc(TextureQuality quality, bool fits) {
     return [=](const NormalLevel& level, Parallel& parallel) {
         std::vector<Vec2> wanted;
         if (fits) {
@@ -136,7 +136,7 @@ Pack astc(AstcEffort effort, bool fits) {
             for (const Vec3& normal : level.normals) wanted.push_back({normal.x, normal.y});
         }
         std::vector<Vec3> texels;
-        if (!packAstc(level.width, level.height, effort, wanted, parallel)) std::exit(1);
+        if (!packAstc(level.width, level.height, quality, wanted, parallel)) std::exit(1);
         for (const Vec2& texel : wanted) texels.push_back({texel.x, texel.y, 0});
         return texels;
     };
@@ -150,19 +150,19 @@ void printFormats(const std::vector<CompressedCase>& cases, Parallel& parallel) 
         {"BC5, libsquish", bySquish},
 #endif
         {"BC5, least squares of all ends", leastSquares},
-        {"BC5 quick", blocks(BlockFormat::bc5, BlockQuality::quick)},
-        {"BC5 fast", blocks(BlockFormat::bc5, BlockQuality::fast)},
-        {"BC5 best", blocks(BlockFormat::bc5, BlockQuality::best)},
-        {"BC5 fast, signed", blocks(BlockFormat::bc5, BlockQuality::fast, true)},
-        {"EAC RG11 quick", blocks(BlockFormat::eacRg11, BlockQuality::quick)},
-        {"EAC RG11 fast", blocks(BlockFormat::eacRg11, BlockQuality::fast)},
-        {"EAC RG11 best", blocks(BlockFormat::eacRg11, BlockQuality::best)},
+        {"BC5 quick", blocks(TextureFormat::bc5, TextureQuality::quick)},
+        {"BC5 fast", blocks(TextureFormat::bc5, TextureQuality::fast)},
+        {"BC5 best", blocks(TextureFormat::bc5, TextureQuality::best)},
+        {"BC5 fast, signed", blocks(TextureFormat::bc5, TextureQuality::fast, true)},
+        {"EAC RG11 quick", blocks(TextureFormat::eacRg11, TextureQuality::quick)},
+        {"EAC RG11 fast", blocks(TextureFormat::eacRg11, TextureQuality::fast)},
+        {"EAC RG11 best", blocks(TextureFormat::eacRg11, TextureQuality::best)},
     };
     if (whyNoAstcWritten() == nullptr) {
-        rows.push_back({"ASTC 4x4, astcenc (medium) alone", astc(AstcEffort::fast, false)});
-        rows.push_back({"ASTC 4x4 quick", astc(AstcEffort::quick, true)});
-        rows.push_back({"ASTC 4x4 fast", astc(AstcEffort::fast, true)});
-        rows.push_back({"ASTC 4x4 best", astc(AstcEffort::best, true)});
+        rows.push_back({"ASTC 4x4, astcenc (medium) alone", astc(TextureQuality::fast, false)});
+        rows.push_back({"ASTC 4x4 quick", astc(TextureQuality::quick, true)});
+        rows.push_back({"ASTC 4x4 fast", astc(TextureQuality::fast, true)});
+        rows.push_back({"ASTC 4x4 best", astc(TextureQuality::best, true)});
     }
     std::printf("Degrees, filtered, mean / p99; microseconds a texel of one thread (processor).\n\n| |");
     for (const CompressedCase& one : cases) std::printf(" %s |", one.name.c_str());

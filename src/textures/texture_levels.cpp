@@ -63,10 +63,7 @@ PackedLevel roundLevel(const NormalLevel& level, bool is_signed) {
 
 std::optional<PackedLevel> packByAstcenc(const NormalLevel& level, TextureQuality quality, Parallel& parallel) {
     std::vector<Vec2> texels = fitTexels(level, parallel);
-    const AstcEffort effort = quality == TextureQuality::quick  ? AstcEffort::quick
-                              : quality == TextureQuality::best ? AstcEffort::best
-                                                                : AstcEffort::fast;
-    std::optional<std::vector<std::uint8_t>> blocks = packAstc(level.width, level.height, effort, texels, parallel);
+    std::optional<std::vector<std::uint8_t>> blocks = packAstc(level.width, level.height, quality, texels, parallel);
     if (!blocks) return {};
     PackedLevel packed{*std::move(blocks), {}};
     for (const Vec2& texel : texels) packed.texels.push_back({texel.x, texel.y, 0});
@@ -98,11 +95,7 @@ std::optional<PackedLevel> packLevel(const NormalLevel& level, const CompressMap
                                      Parallel& parallel) {
     if (options.format == TextureFormat::rg8) return roundLevel(level, options.is_signed);
     if (options.format == TextureFormat::astc4x4) return packByAstcenc(level, options.quality, parallel);
-    BlockOptions how{.is_signed = options.is_signed};
-    if (options.format == TextureFormat::eacRg11) how.format = BlockFormat::eacRg11;
-    if (options.quality == TextureQuality::best) how.quality = BlockQuality::best;
-    if (options.quality == TextureQuality::quick) how.quality = BlockQuality::quick;
-    FittedLevel fitted = fitBlocks(level, how, parallel);
+    FittedLevel fitted = fitBlocks(level, {options.format, options.is_signed, options.quality}, parallel);
     PackedLevel packed{std::move(fitted.blocks), {}};
     packed.texels.reserve(fitted.texels.size());
     for (const Vec2& texel : fitted.texels) packed.texels.push_back({texel.x, texel.y, 0});
@@ -118,8 +111,7 @@ TexelKind textureKind(const CompressMapFileOptions& options) {
 }
 
 std::vector<std::uint8_t> ddsFileOf(const Texture& texture, DdsHeader header) {
-    const OldDdsHeader old{header == DdsHeader::bc5u ? "BC5U" : "ATI2"};
-    return writeDds(texture, header == DdsHeader::dx10 ? nullptr : &old);
+    return writeDds(texture, header == DdsHeader::dx10 ? nullptr : header == DdsHeader::bc5u ? "BC5U" : "ATI2");
 }
 
 std::optional<Error> textureFault(const CompressMapFileOptions& options, bool is_dds) {

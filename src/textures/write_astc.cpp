@@ -17,10 +17,10 @@ namespace tspace {
 
 namespace {
 
-float effortOf(AstcEffort effort) {
-    return effort == AstcEffort::quick  ? ASTCENC_PRE_FAST
-           : effort == AstcEffort::best ? ASTCENC_PRE_THOROUGH
-                                        : ASTCENC_PRE_MEDIUM;
+float effortOf(TextureQuality quality) {
+    return quality == TextureQuality::quick  ? ASTCENC_PRE_FAST
+           : quality == TextureQuality::best ? ASTCENC_PRE_THOROUGH
+                                             : ASTCENC_PRE_MEDIUM;
 }
 
 /// Decodes ASTC blocks of two channels with the image library.
@@ -44,7 +44,7 @@ const char* whyNoAstcWritten() {
                               "), which is not installed (Debian: libastcenc3d)";
 }
 
-std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t width, std::uint32_t height, AstcEffort effort,
+std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t width, std::uint32_t height, TextureQuality quality,
                                                   std::span<Vec2> texels, Parallel& parallel) {
     constexpr std::uint32_t kSide = 4;
     constexpr std::size_t kBlockBytes = 16;
@@ -52,7 +52,7 @@ std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t width, std::uint
     astcenc_config config{};
     astcenc_context* made = nullptr;
     // Selects the library's angular error metric, with x in red and y in alpha.
-    if (astc().initConfig(ASTCENC_PRF_LDR, kSide, kSide, 1, effortOf(effort), ASTCENC_FLG_MAP_NORMAL, &config) !=
+    if (astc().initConfig(ASTCENC_PRF_LDR, kSide, kSide, 1, effortOf(quality), ASTCENC_FLG_MAP_NORMAL, &config) !=
             ASTCENC_SUCCESS ||
         astc().allocateContext(&config, tasks, &made) != ASTCENC_SUCCESS)
         return {};
@@ -85,7 +85,7 @@ const char* whyNoAstcWritten() {
     return "this build of tspace cannot write ASTC, because it was built without the library astcenc (Debian: "
            "libastcenc-dev)";
 }
-std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t, std::uint32_t, AstcEffort, std::span<Vec2>,
+std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t, std::uint32_t, TextureQuality, std::span<Vec2>,
                                                   Parallel&) {
     return {};
 }

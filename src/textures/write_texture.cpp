@@ -136,7 +136,7 @@ void addOldFormat(const TexelFormat& format, const char* four_cc, TextureBytes& 
 
 }  // namespace
 
-std::vector<std::uint8_t> writeDds(const Texture& texture, const OldDdsHeader* old) {
+std::vector<std::uint8_t> writeDds(const Texture& texture, const char* old_four_cc) {
     const auto levels = static_cast<std::uint32_t>(texture.levels.size());
     constexpr std::uint32_t kPlain = 0x1007, kPitch = 8, kLinearSize = 0x80000, kWithLevels = 0x20000, kCaps = 0x1000,
                             kCapsOfLevels = 0x400008, kHasCode = 4, kFlat = 3;
@@ -149,8 +149,8 @@ std::vector<std::uint8_t> writeDds(const Texture& texture, const OldDdsHeader* o
     out.add("DDS ");
     for (const std::uint32_t number : {124U, flags, texture.height, texture.width, size, 0U, levels}) out.add32(number);
     out.bytes.resize(76);
-    if (old != nullptr) {
-        addOldFormat(format, format.is_signed ? "BC5S" : old->four_cc, out);
+    if (old_four_cc != nullptr) {
+        addOldFormat(format, format.is_signed ? "BC5S" : old_four_cc, out);
     } else {
         out.add32(32);
         out.add32(kHasCode);
@@ -159,7 +159,7 @@ std::vector<std::uint8_t> writeDds(const Texture& texture, const OldDdsHeader* o
     out.bytes.resize(108);
     out.add32(kCaps | (levels > 1 ? kCapsOfLevels : 0));
     out.bytes.resize(128);
-    if (old == nullptr) {
+    if (old_four_cc == nullptr) {
         for (const std::uint32_t number : {writtenFormat(texture.kind).dxgi, kFlat, 0U, 1U, 0U}) out.add32(number);
     }
     for (const std::vector<std::uint8_t>& level : texture.levels) out.add(level);

@@ -12,6 +12,7 @@
 #include "core/base/vec_math.h"
 #include "images/image.h"
 #include "images/textures/texel_format.h"
+#include "tspace/map_files.h"
 
 namespace tspace {
 
@@ -25,13 +26,9 @@ struct Texture {
 
 /// Returns the reason why DDS does not support the format, as a sentence fragment; null if it does.
 const char* whyNotDds(TexelKind kind);
-/// Parameters of a Direct3D 9 header, as an alternative to the Direct3D 10 header. `four_cc`: FourCC of signed or
-/// unsigned BC5; texels of other formats are described by masks.
-struct OldDdsHeader {
-    const char* four_cc = "ATI2";
-};
-/// Writes a DDS with a Direct3D 10 header, or with `old`. Requires whyNotDds(texture.kind) == nullptr.
-std::vector<std::uint8_t> writeDds(const Texture& texture, const OldDdsHeader* old = nullptr);
+/// Writes a DDS with a Direct3D 10 header, or with a Direct3D 9 header if `old_four_cc` is not null: the FourCC for
+/// unsigned BC5. Texels of other formats are then described by masks. Requires whyNotDds(texture.kind) == nullptr.
+std::vector<std::uint8_t> writeDds(const Texture& texture, const char* old_four_cc = nullptr);
 
 /// Returns the reason why this build cannot compress levels with Zstandard, as a sentence; null if it can.
 const char* whyNotZstd();
@@ -39,14 +36,12 @@ const char* whyNotZstd();
 /// separately; 0: uncompressed. Returns nullopt if memory runs out.
 std::optional<std::vector<std::uint8_t>> writeKtx2(const Texture& texture, int zstd_level = 0);
 
-enum class AstcEffort : std::uint8_t { quick, fast, best };
-
 /// Returns the reason why ASTC cannot be written, as a sentence; null if it can.
 const char* whyNoAstcWritten();
 /// Encodes x (in red, green and blue) and y (in alpha) as ASTC blocks of 4 x 4 texels, row by row. Replaces `texels`
 /// (-1 to 1) by the decoded values. Returns nullopt if the library fails. The result does not depend on the number of
 /// threads. Requires whyNoAstcWritten() == nullptr.
-std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t width, std::uint32_t height, AstcEffort effort,
+std::optional<std::vector<std::uint8_t>> packAstc(std::uint32_t width, std::uint32_t height, TextureQuality quality,
                                                   std::span<Vec2> texels, Parallel& parallel);
 
 }  // namespace tspace

@@ -77,7 +77,7 @@ double meanError(const NormalLevel& level, const BlockOptions& options) {
 
 /// Returns x and y of all texels, decoded by the decoder that reads files.
 std::vector<Vec2> decodedTexels(const FittedLevel& fitted, const NormalLevel& level, const BlockOptions& options) {
-    const bool is_bc5 = options.format == BlockFormat::bc5;
+    const bool is_bc5 = options.format == TextureFormat::bc5;
     const TexelFormat format = texelFormat(is_bc5 ? (options.is_signed ? TexelKind::bc5s : TexelKind::bc5)
                                                   : (options.is_signed ? TexelKind::eacRgs : TexelKind::eacRg));
     std::vector<Vec2> texels(level.normals.size());
@@ -96,9 +96,9 @@ std::vector<Vec2> decodedTexels(const FittedLevel& fitted, const NormalLevel& le
 
 std::vector<BlockOptions> allWays() {
     std::vector<BlockOptions> ways;
-    for (const BlockFormat format : {BlockFormat::bc5, BlockFormat::eacRg11}) {
+    for (const TextureFormat format : {TextureFormat::bc5, TextureFormat::eacRg11}) {
         for (const bool is_signed : {false, true}) {
-            for (const BlockQuality quality : {BlockQuality::quick, BlockQuality::fast, BlockQuality::best})
+            for (const TextureQuality quality : {TextureQuality::quick, TextureQuality::fast, TextureQuality::best})
                 ways.push_back({format, is_signed, quality});
         }
     }
@@ -122,10 +122,10 @@ TEST(FitBlocks, TheTexelsItNamesAreThoseThatItsBlocksDecodeTo) {
 
 TEST(FitBlocks, EveryQualityIsBetterThanTheOneBelow) {
     for (const NormalLevel& level : {reliefLevel(96, 64), facetLevel(64)}) {
-        for (const BlockFormat format : {BlockFormat::bc5, BlockFormat::eacRg11}) {
-            const double quick = meanError(level, {format, false, BlockQuality::quick});
-            const double fast = meanError(level, {format, false, BlockQuality::fast});
-            const double best = meanError(level, {format, false, BlockQuality::best});
+        for (const TextureFormat format : {TextureFormat::bc5, TextureFormat::eacRg11}) {
+            const double quick = meanError(level, {format, false, TextureQuality::quick});
+            const double fast = meanError(level, {format, false, TextureQuality::fast});
+            const double best = meanError(level, {format, false, TextureQuality::best});
             EXPECT_LT(fast, 0.97 * quick);
             EXPECT_LT(best, fast);
         }
@@ -178,9 +178,9 @@ std::vector<Vec3> leastSquares(const NormalLevel& level) {
 TEST(FitBlocks, IsMoreAccurateUnderFilteringThanLeastSquares) {
     for (const NormalLevel& level : {reliefLevel(64, 64), reliefLevel(64, 64, 0.2)}) {
         const double squares = measureFiltered(level, leastSquares(level), true, oneThread()).mean_deg;
-        EXPECT_LT(meanError(level, {.quality = BlockQuality::fast}), 0.95 * squares);
-        EXPECT_LT(meanError(level, {.quality = BlockQuality::best}), 0.94 * squares);
-        EXPECT_LT(meanError(level, {.quality = BlockQuality::quick}), 1.1 * squares);
+        EXPECT_LT(meanError(level, {.quality = TextureQuality::fast}), 0.95 * squares);
+        EXPECT_LT(meanError(level, {.quality = TextureQuality::best}), 0.94 * squares);
+        EXPECT_LT(meanError(level, {.quality = TextureQuality::quick}), 1.1 * squares);
     }
 }
 
@@ -202,7 +202,7 @@ TEST(FitBlocks, RepresentsFlatMapsWithinAQuantizationStep) {
     // exactly.
     EXPECT_LT(meanError(flat, {}), 0.045);
     EXPECT_EQ(meanError(flat, {.is_signed = true}), 0);
-    EXPECT_EQ(meanError(flat, {.format = BlockFormat::eacRg11, .is_signed = true}), 0);
+    EXPECT_EQ(meanError(flat, {.format = TextureFormat::eacRg11, .is_signed = true}), 0);
 }
 
 TEST(FitBlocks, WritesTheSameBytesForAnyNumberOfThreads) {

@@ -127,15 +127,14 @@ using StepCallback = std::function<void(std::uint64_t done, std::uint64_t total)
 /// Calls row(y) for all rows of an image that repeats; adjacent rows never run at the same time. The steps of
 /// `report_step` are rows.
 template <class Row>
-void forNonAdjacentRows(Parallel& parallel, std::uint32_t height, const Row& row,
-                        const StepCallback& report_step = {}) {
+void forNonAdjacentRows(Parallel& parallel, std::size_t height, const Row& row, const StepCallback& report_step = {}) {
     constexpr std::size_t kRowsPerReport = 128;
     std::uint64_t done = 0;
     forNonAdjacent(height, [&](std::size_t first, std::size_t number) {
         const std::size_t at_once = report_step ? kRowsPerReport : number;
         for (std::size_t from = 0; from < number; from += at_once) {
             if (report_step) report_step(done + from, height);
-            parallel.forRanges(std::min(at_once, number - from), 4, [&](std::size_t begin, std::size_t end) {
+            parallel.forRanges(std::min(at_once, number - from), 1, [&](std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end; ++i) row(static_cast<std::uint32_t>(first + 2 * (from + i)));
             });
         }

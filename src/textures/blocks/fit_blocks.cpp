@@ -4,23 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/solve/solve_texels.h"
 #include "textures/blocks/block_formats.h"
 #include "textures/blocks/block_search.h"
 
 namespace tspace {
 namespace {
-
-/// Runs body(row) for all `count` rows such that neighboring rows never run at the same time: every second row, then
-/// the others. The first and the last row are neighbors.
-template <class Body>
-void forNonAdjacentRows(std::size_t count, Parallel& parallel, const Body& body) {
-    const std::size_t pairs = count / 2;
-    for (const std::size_t first : {std::size_t{0}, std::size_t{1}})
-        parallel.forRanges(pairs, 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) body(2 * i + first);
-        });
-    if (count % 2 != 0) body(count - 1);
-}
 
 /// Quadratic form for the filtered error of x and y. Between four texels the metric of directions is taken as constant,
 /// and the filter mixes texels with the weights of bilinear elements: 4/36, 2/36 and 1/36.
@@ -30,7 +19,7 @@ class FilteredForm {
         : width_(level.width), height_(level.height), metrics_(level.normals.size()), best_(level.normals.size()) {
         std::vector<Vec2> residuals(level.normals.size());
         for (std::size_t i = 0; i < best_.size(); ++i) best_[i] = {level.normals[i].x, level.normals[i].y};
-        forNonAdjacentRows(height_, parallel, [&](std::size_t y) { addRow(level, y, residuals); });
+        forNonAdjacentRows(parallel, height_, [&](std::size_t y) { addRow(level, y, residuals); });
         solve(residuals, parallel);
     }
 
@@ -117,7 +106,7 @@ class FilteredForm {
         constexpr int kSweeps = 3;
         std::vector<Vec2> moved(best_.size());
         for (int sweep = 0; sweep < kSweeps; ++sweep)
-            forNonAdjacentRows(height_, parallel, [&](std::size_t y) { sweepRow(y, residuals, moved); });
+            forNonAdjacentRows(parallel, height_, [&](std::size_t y) { sweepRow(y, residuals, moved); });
         for (std::size_t i = 0; i < best_.size(); ++i) {
             best_[i].x += moved[i].x;
             best_[i].y += moved[i].y;
@@ -155,15 +144,17 @@ struct KeptChannel {
     std::array<std::int8_t, 16> codes = {};
 };
 
-SearchEffort startEffort(BlockQuality quality) {
-    if (quality == BlockQuality::best)
+SearchEffort startEffort(TextureQuality quality) {
+    if (quality == TextureQuality::best)
         return {.all_starts = true, .start_fits = 3, .near_range = 12, .few_values = true};
-    return {
-        .all_starts = true, .start_fits = quality == BlockQuality::fast ? 1 : 2, .near_range = 12, .few_values = true};
+    return {.all_starts = true,
+            .start_fits = quality == TextureQuality::fast ? 1 : 2,
+            .near_range = 12,
+            .few_values = true};
 }
 
-SearchEffort roundEffort(BlockQuality quality) {
-    if (quality == BlockQuality::best)
+SearchEffort roundEffort(TextureQuality quality) {
+    if (quality == TextureQuality::best)
         return {.all_starts = true, .start_fits = 2, .near_range = 12, .sweeps = 2, .tries_neighbors = true};
     return {.all_starts = false, .start_fits = 1, .near_range = 3, .sweeps = 1};
 }
@@ -177,7 +168,7 @@ class LevelFit {
           errors_(level.normals.size()), kept_(2 * across_ * down_) {}
 
     FittedLevel run(const NormalLevel& level) {
-        if (quality_ == BlockQuality::quick) {
+        if (quality_ == TextureQuality::quick) {
             targets_.reserve(level.normals.size());
             for (const Vec3& normal : level.normals) targets_.push_back(stepsOf({normal.x, normal.y}));
             startAll();
@@ -187,9 +178,9 @@ class LevelFit {
         targets_.reserve(level.normals.size());
         for (const Vec2& texel : form.best()) targets_.push_back(stepsOf(texel));
         startAll();
-        const int rounds = quality_ == BlockQuality::best ? 3 : 2;
+        const int rounds = quality_ == TextureQuality::best ? 3 : 2;
         for (int round = 0; round < rounds; ++round)
-            forNonAdjacentRows(down_, parallel_, [&](std::size_t y) {
+            forNonAdjacentRows(parallel_, down_, [&](std::size_t y) {
                 for (std::size_t x = 0; x < across_; ++x) improve(form, x, y);
             });
         return result();
@@ -315,7 +306,7 @@ class LevelFit {
     }
 
     const Format format_;
-    BlockQuality quality_;
+    TextureQuality quality_;
     Parallel& parallel_;
     std::size_t width_, height_, across_, down_;
     float half_;
@@ -327,7 +318,7 @@ class LevelFit {
 }  // namespace
 
 FittedLevel fitBlocks(const NormalLevel& level, const BlockOptions& options, Parallel& parallel) {
-    if (options.format == BlockFormat::eacRg11) return LevelFit<EacFormat>(level, options, parallel).run(level);
+    if (options.format == TextureFormat::eacRg11) return LevelFit<EacFormat>(level, options, parallel).run(level);
     return LevelFit<Bc4Format>(level, options, parallel).run(level);
 }
 

@@ -6,21 +6,14 @@
 #include <vector>
 
 #include "textures/blocks/normal_levels.h"
+#include "tspace/map_files.h"
 
 namespace tspace {
 
-enum class BlockFormat : std::uint8_t { bc5, eacRg11 };
-
-enum class BlockQuality : std::uint8_t {
-    quick,  ///< fits each channel of a block independently, by least squares over its texels
-    fast,   ///< minimizes the filtered error in two rounds
-    best    ///< like `fast`, with three rounds and more palettes
-};
-
 struct BlockOptions {
-    BlockFormat format = BlockFormat::bc5;
+    TextureFormat format = TextureFormat::bc5;  ///< bc5 or eacRg11
     bool is_signed = false;
-    BlockQuality quality = BlockQuality::fast;
+    TextureQuality quality = TextureQuality::fast;
 };
 
 struct FittedLevel {

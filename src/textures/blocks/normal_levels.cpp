@@ -38,15 +38,6 @@ namespace {
 
 Moments momentsOf(const Vec3& n) { return {n.x * n.x, n.x * n.y, n.x * n.z, n.y * n.y, n.y * n.z}; }
 
-/// Calls part(texel, weight) for each source texel that a texel of the smaller level covers.
-template <class Part>
-void forCovered(const MeanLevel& from, const Cover& across, const Cover& down, const Part& part) {
-    for (std::size_t j = 0; j < down.weights.size(); ++j) {
-        const std::size_t row = (down.begin + j) * from.width + across.begin;
-        for (std::size_t i = 0; i < across.weights.size(); ++i) part(row + i, down.weights[j] * across.weights[i]);
-    }
-}
-
 MeanLevel shrink(const MeanLevel& from, std::uint32_t width, std::uint32_t height, Parallel& parallel) {
     const std::vector<Cover> across = coversOf(from.width, width), down = coversOf(from.height, height);
     const std::size_t count = std::size_t{width} * height;
@@ -57,19 +48,19 @@ MeanLevel shrink(const MeanLevel& from, std::uint32_t width, std::uint32_t heigh
         for (std::size_t at = begin * width; at < end * width; ++at) {
             const Cover &columns = across[at % width], &rows = down[at / width];
             DVec3 sum{};
-            forCovered(from, columns, rows,
+            forCovered(from.width, columns, rows,
                        [&](std::size_t texel, double weight) { sum = sum + weight * toDouble(from.means[texel]); });
             to.means[at] = toFloat(sum);
             if (!to.coverage.empty()) {
                 double covered = 0;
-                forCovered(from, columns, rows, [&](std::size_t texel, double weight) {
+                forCovered(from.width, columns, rows, [&](std::size_t texel, double weight) {
                     covered += weight * static_cast<double>(from.coverage[texel]);
                 });
                 to.coverage[at] = static_cast<float>(covered);
             }
             if (to.moments.empty()) continue;
             std::array<double, 5> moments{};
-            forCovered(from, columns, rows, [&](std::size_t texel, double weight) {
+            forCovered(from.width, columns, rows, [&](std::size_t texel, double weight) {
                 for (std::size_t k = 0; k < 5; ++k) moments[k] += weight * static_cast<double>(from.moments[texel][k]);
             });
             for (std::size_t k = 0; k < 5; ++k) to.moments[at][k] = static_cast<float>(moments[k]);

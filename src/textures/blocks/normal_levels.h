@@ -28,6 +28,16 @@ struct Cover {
 };
 std::vector<Cover> coversOf(std::uint32_t from, std::uint32_t to);
 
+/// Calls part(texel, weight) for each texel of a level with rows of `width` texels that one texel of a smaller level
+/// covers.
+template <class Part>
+void forCovered(std::size_t width, const Cover& across, const Cover& down, const Part& part) {
+    for (std::size_t j = 0; j < down.weights.size(); ++j) {
+        const std::size_t row = (down.begin + j) * width + across.begin;
+        for (std::size_t i = 0; i < across.weights.size(); ++i) part(row + i, down.weights[j] * across.weights[i]);
+    }
+}
+
 /// Returns the given level and all smaller ones down to 1 x 1, each half as wide and high, rounded down. A texel of any
 /// level is the normalized mean of the normals that it covers in the first level, weighted by area and coverage, or (0,
 /// 0, 1) if that mean has no direction. A texel without coverage, in any level including the first, gets the normal of

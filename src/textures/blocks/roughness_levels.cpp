@@ -49,18 +49,14 @@ RoughnessLevel meanLevel(const RoughnessLevel& first, std::span<const float> cov
             const Cover &columns = across[at % width], &rows = down[at / width];
             DVec3 sum{}, covered_sum{};
             double covered = 0;
-            for (std::size_t j = 0; j < rows.weights.size(); ++j) {
-                const std::size_t row = (rows.begin + j) * first.width + columns.begin;
-                for (std::size_t i = 0; i < columns.weights.size(); ++i) {
-                    const double weight = rows.weights[j] * columns.weights[i];
-                    const DVec3 texel = toDouble(first.texels[row + i]);
-                    sum = sum + weight * texel;
-                    if (coverage.empty()) continue;
-                    const double part = weight * static_cast<double>(coverage[row + i]);
-                    covered += part;
-                    covered_sum = covered_sum + part * texel;
-                }
-            }
+            forCovered(first.width, columns, rows, [&](std::size_t texel, double weight) {
+                const DVec3 value = toDouble(first.texels[texel]);
+                sum = sum + weight * value;
+                if (coverage.empty()) return;
+                const double part = weight * static_cast<double>(coverage[texel]);
+                covered += part;
+                covered_sum = covered_sum + part * value;
+            });
             level.texels[at] = toFloat(covered > 0 ? (1 / covered) * covered_sum : sum);
         }
     });
