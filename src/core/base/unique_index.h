@@ -24,16 +24,14 @@ inline std::uint64_t foldHash(std::uint64_t hash, std::uint64_t value) {
     return mixBits((hash + 0x9e3779b97f4a7c15u) ^ value);
 }
 
-/// Returns equal hashes for positions that compare equal: -0 and +0 are the same number.
-inline std::uint64_t hashPosition(const Vec3& p) {
-    const auto bits = [](float f) { return std::uint64_t{std::bit_cast<std::uint32_t>(f == 0.0f ? 0.0f : f)}; };
-    return foldHash(mixBits(bits(p.x) | bits(p.y) << 32), bits(p.z));
-}
-
-// Hash table that numbers values in order of first occurrence, to find equal vertices, edges and materials.
-
 /// Returns the bits of a float, with both zeros equal, so that -0 and 0 are welded.
 inline std::uint32_t weldBits(float value) { return std::bit_cast<std::uint32_t>(value == 0.0f ? 0.0f : value); }
+inline std::uint64_t uvBits(const Vec2& uv) { return weldBits(uv.x) | std::uint64_t{weldBits(uv.y)} << 32; }
+
+/// Returns equal hashes for positions that compare equal: -0 and +0 are the same number.
+inline std::uint64_t hashPosition(const Vec3& p) { return foldHash(mixBits(uvBits({p.x, p.y})), weldBits(p.z)); }
+
+// Hash table that numbers values in order of first occurrence, to find equal vertices, edges and materials.
 
 /// Hash table with open addressing that is never iterated. Keys are compared by their bits, so they must not have
 /// padding; they consist of whole 32-bit words. Expected constant time per key.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // convertMap: computes the frames of both sides at each texel, and the sums of the report.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -12,6 +11,7 @@
 #include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 #include "maps/convert/convert_texel.h"
+#include "maps/layout/low_points.h"
 #include "maps/layout/texel_triangles.h"
 #include "maps/rays/map_surfaces.h"
 #include "maps/solve/choose_lengths.h"
@@ -58,10 +58,8 @@ struct HashedTriangle {
 
 std::uint64_t hashOf(const MapSide& side, std::size_t triangle, bool with_positions) {
     std::array<std::uint64_t, 3> corners{};
-    const auto bits = [](float f) { return std::uint64_t{std::bit_cast<std::uint32_t>(f == 0.0f ? 0.0f : f)}; };
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vec2 uv = side.uvs[3 * triangle + i];
-        corners[i] = foldHash(bits(uv.x) | bits(uv.y) << 32,
+        corners[i] = foldHash(uvBits(side.uvs[3 * triangle + i]),
                               with_positions ? hashPosition(side.positions[3 * triangle + i]) : 0);
     }
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
@@ -80,10 +78,7 @@ Buffer<HashedTriangle> sorted(const MapSide& side, bool with_positions, const Al
 
 DVec3 positionAt(const MapSide& side, const UvTriangles& triangles, const TextureShape& shape,
                  const TexelPlace& place) {
-    const std::array<double, 3> weights = weightsAt(triangles, shape, place);
-    DVec3 sum{};
-    for (std::size_t i = 0; i < 3; ++i) sum = sum + weights[i] * toDouble(side.positions[3 * place.triangle + i]);
-    return sum;
+    return mixedAt(side.positions, place.triangle, weightsAt(triangles, shape, place));
 }
 
 /// Returns, for each triangle of `side`, the triangle of `other` with the same UVs and (if both sides have them) the

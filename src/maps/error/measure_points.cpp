@@ -2,10 +2,9 @@
 #include "maps/error/measure_points.h"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 
-#include "core/base/unique_index.h"
+#include "maps/layout/low_points.h"
 #include "maps/rays/ray_directions.h"
 #include "maps/texels/texture_sample.h"
 
@@ -14,34 +13,16 @@ namespace {
 
 constexpr std::size_t kPointsOfTask = 1024;
 
-std::uint64_t bitsOf(float value) { return std::bit_cast<std::uint32_t>(value == 0 ? 0.0F : value); }
-
 /// Returns a hash of an edge that is equal for both directions.
 std::uint64_t hashEdge(const LowPoly& low, std::size_t a, std::size_t b) {
-    const auto hashEnd = [&](std::size_t corner) {
-        const Vec2& uv = low.uvs[corner];
-        return foldHash(hashPosition(low.positions[corner]), bitsOf(uv.x) | bitsOf(uv.y) << 32);
-    };
-    const std::uint64_t x = hashEnd(a), y = hashEnd(b);
+    const std::uint64_t x = hashCorner(low, a), y = hashCorner(low, b);
     return foldHash(std::min(x, y), std::max(x, y));
 }
 
-Vec2 uvAt(const LowPoly& low, std::size_t triangle, const std::array<double, 3>& weights) {
-    double u = 0, v = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        u += weights[i] * low.uvs[3 * triangle + i].x;
-        v += weights[i] * low.uvs[3 * triangle + i].y;
-    }
-    return {static_cast<float>(u), static_cast<float>(v)};
-}
-
-double areaOf(const LowPoly& low, std::size_t triangle) {
-    const DVec3 first = toDouble(low.positions[3 * triangle]);
-    const double area = length(
-        cross(toDouble(low.positions[3 * triangle + 1]) - first, toDouble(low.positions[3 * triangle + 2]) - first));
+/// Returns whether a triangle has finite UVs.
+bool shows(const LowPoly& low, std::size_t triangle) {
     const Vec2 a = low.uvs[3 * triangle], b = low.uvs[3 * triangle + 1], c = low.uvs[3 * triangle + 2];
-    const bool shows = std::isfinite(a.x + a.y + b.x + b.y + c.x + c.y);
-    return std::isfinite(area) && shows ? area : 0;
+    return std::isfinite(a.x + a.y + b.x + b.y + c.x + c.y);
 }
 
 }  // namespace
@@ -59,35 +40,24 @@ DVec3 shadedAt(const MapImage& map, const MapCandidate& candidate, const CornerF
 
 MeasurePoints MeasurePoints::spread(const MapSurfaces& surfaces, std::uint32_t count, const MapWork& work) {
     MeasurePoints made;
-    made.findBorders(surfaces.low());
-    std::vector<double> ends(surfaces.triangleCount());
-    double total = 0;
-    for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = total += areaOf(surfaces.low(), i);
-    if (!(total > 0)) return made;
+    const LowPoly& low = surfaces.low();
+    made.findBorders(low);
+    const AreaPoints places(surfaces.triangleCount(),
+                            [&](std::size_t i) { return shows(low, i) ? faceSize(low.positions, i) : 0; });
+    if (places.empty()) return made;
     made.points_.resize(count);
     const auto spreadTask = [&](std::size_t task) {
         double guess = 0;
         const std::size_t end = std::min<std::size_t>(count, (task + 1) * kPointsOfTask);
         for (std::size_t i = task * kPointsOfTask; i < end; ++i) {
-            // Points are distributed evenly over the area. The position within a triangle comes from a hash of the
-            // point's index.
             Point& point = made.points_[i];
-            const double at = total * (static_cast<double>(i) + 0.5) / count;
-            const auto triangle = std::upper_bound(ends.begin(), ends.end(), at) - ends.begin();
-            point.triangle = static_cast<std::uint32_t>(std::min<std::ptrdiff_t>(triangle, std::ssize(ends) - 1));
-            const std::uint64_t bits = mixBits(i + 1);
-            double s = static_cast<double>(bits >> 40) / 16777216.0,
-                   t = static_cast<double>(bits & 0xffffff) / 16777216.0;
-            if (s + t > 1) {
-                s = 1 - s;
-                t = 1 - t;
-            }
-            point.weights = {static_cast<float>(s), static_cast<float>(t)};
-            const std::array<double, 3> weights{1.0 - point.weights[0] - point.weights[1], point.weights[0],
-                                                point.weights[1]};
+            const LowPoint place = places.at(i, count);
+            point.triangle = place.triangle;
+            point.second = static_cast<float>(place.weights[1]);
+            point.third = static_cast<float>(place.weights[2]);
             DVec3 normal;
             RayNeighborhood around;
-            point.is_hit = surfaces.truthAt(point.triangle, weights, guess, normal, &around);
+            point.is_hit = surfaces.truthAt(point.triangle, point.weights(), guess, normal, &around);
             point.is_hidden = around.has_front_further_out;
             point.met_back = around.met_back;
             point.is_inward = around.normal_is_inward;
@@ -141,9 +111,8 @@ MapError MeasurePoints::measure(const MapImage& map, const MapSurfaces& surfaces
     parallel.forRanges(points_.size(), kPointsOfTask, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Point& point = points_[i];
-            const std::array<double, 3> weights{1.0 - point.weights[0] - point.weights[1], point.weights[0],
-                                                point.weights[1]};
-            const Vec2 uv = uvAt(low, point.triangle, weights);
+            const std::array<double, 3> weights = point.weights();
+            const Vec2 uv = mixedAt(low.uvs, point.triangle, weights);
             near_border[i] = isNearBorder(map, low, point, uv) ? 1 : 0;
             if (!point.is_hit) continue;
             const DVec3 shaded = shadedAt(map, candidate, surfaces.corners(point.triangle, tangents), weights, uv);
@@ -198,7 +167,7 @@ std::vector<float> heatOf(const MapImage& map, const MapSurfaces& surfaces, cons
             const std::array<double, 3> weights = sample.weights();
             if (counts[texel] == 0xffff || !surfaces.truthAt(sample.triangle, weights, guess, truth)) return;
             const DVec3 shaded = shadedAt(map, candidate, surfaces.corners(sample.triangle, tangents), weights,
-                                          uvAt(surfaces.low(), sample.triangle, weights));
+                                          mixedAt(surfaces.low().uvs, sample.triangle, weights));
             const double angle = degreesBetween(shaded, truth);
             heat[texel] += std::isfinite(angle) ? static_cast<float>(angle) : 180.0F;
             ++counts[texel];

@@ -157,9 +157,11 @@ class MeasurePoints {
   private:
     struct Point {
         std::uint32_t triangle = 0;
-        std::array<float, 2> weights = {};  ///< weights of the second and the third corner
+        float second = 0, third = 0;  ///< weights of the second and the third corner
         bool is_hit = false, is_hidden = false, met_back = false, is_inward = false;
         Vec3 normal = {};  ///< true normal at the point
+
+        [[nodiscard]] std::array<double, 3> weights() const { return {1.0 - second - third, second, third}; }
     };
     std::vector<Point> points_ = {};
     std::vector<std::uint8_t> borders_ =

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "maps/layout/uv_pieces.h"
 
-#include <bit>
-#include <cmath>
 #include <numeric>
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/sort.h"
-#include "core/base/unique_index.h"
-#include "core/base/vec_math.h"
+#include "maps/layout/low_points.h"
 
 namespace tspace {
 namespace {
@@ -39,10 +36,7 @@ class Pieces {
     }
 
     [[nodiscard]] std::uint64_t hashOf(std::size_t corner) const {
-        const auto bits = [](float f) { return std::uint64_t{std::bit_cast<std::uint32_t>(f == 0.0F ? 0.0F : f)}; };
-        const Vec2 uv = low_.uvs[corner];
-        const std::uint64_t place = foldHash(hashPosition(low_.positions[corner]), bits(uv.x) | bits(uv.y) << 32);
-        return foldHash(place, static_cast<std::uint64_t>(1 + turnOf(corner / 3)));
+        return foldHash(hashCorner(low_, corner), static_cast<std::uint64_t>(1 + turnOf(corner / 3)));
     }
 
     void joinAtCorners() {
@@ -62,13 +56,6 @@ class Pieces {
     Buffer<std::uint32_t> parents_;
 };
 
-double areaOfTriangle(const LowPoly& low, std::size_t triangle) {
-    const DVec3 first = toDouble(low.positions[3 * triangle]);
-    const double area = length(
-        cross(toDouble(low.positions[3 * triangle + 1]) - first, toDouble(low.positions[3 * triangle + 2]) - first));
-    return std::isfinite(area) ? area : 0;
-}
-
 }  // namespace
 
 Buffer<std::uint32_t> ranksOfPieces(const LowPoly& low, MapOverlap overlap, const Allocator* allocator) {
@@ -85,7 +72,7 @@ Buffer<std::uint32_t> ranksOfPieces(const LowPoly& low, MapOverlap overlap, cons
     Buffer<Piece> by_area(allocator, count, Piece{});
     for (std::uint32_t i = 0; i < count; ++i) {
         by_area[i].first = i;
-        by_area[ranks[i]].area += areaOfTriangle(low, i);
+        by_area[ranks[i]].area += faceSize(low.positions, i);
     }
     sortList(by_area.begin(), by_area.end(),
              [](const Piece& a, const Piece& b) { return a.area != b.area ? a.area > b.area : a.first < b.first; });

@@ -7,6 +7,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/vec_math.h"
+#include "maps/layout/low_points.h"
 #include "maps/layout/uv_coverage.h"
 #include "maps/rays/ray_directions.h"
 #include "maps/rays/rays.h"
@@ -53,12 +54,6 @@ Error checkRays(const RayOptions& rays, double reach);
 struct RayNeighborhood {
     bool has_front_further_out = false, met_back = false;
     bool normal_is_inward = false;  ///< the shading normal of the high poly points inward at the hit front face
-};
-
-/// Point on a triangle of the low poly.
-struct LowPoint {
-    std::uint32_t triangle = 0;
-    std::array<double, 3> weights = {};
 };
 
 /// Hit of the ray from a point of the low poly on the high poly.

@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "core/base/numbers.h"
-#include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
+#include "maps/layout/low_points.h"
 #include "maps/rays/map_surfaces.h"
-#include "maps/rays/ray_directions.h"
 #include "maps/rays/rays.h"
 
 namespace tspace {
@@ -81,26 +80,10 @@ struct Sample {
 
 /// Returns sample points of the low poly, evenly distributed over its area.
 std::vector<Sample> samplesOf(const LowPoly& low) {
-    std::vector<double> ends(low.positions.count / 3);
-    double total = 0;
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-        const DVec3 first = toDouble(low.positions[3 * i]);
-        const double area =
-            length(cross(toDouble(low.positions[3 * i + 1]) - first, toDouble(low.positions[3 * i + 2]) - first));
-        ends[i] = total += std::isfinite(area) ? area : 0;
-    }
+    const AreaPoints places(low.positions.count / 3, [&](std::size_t i) { return faceSize(low.positions, i); });
     std::vector<Sample> samples;
-    for (std::size_t i = 0; total > 0 && i < kSamples; ++i) {
-        const double at = total * (static_cast<double>(i) + 0.5) / kSamples;
-        const auto found = std::upper_bound(ends.begin(), ends.end(), at) - ends.begin();
-        const auto triangle = static_cast<std::size_t>(std::min(found, std::ssize(ends) - 1));
-        const std::uint64_t bits = mixBits(i + 1);
-        double s = static_cast<double>(bits >> 40) / 16777216.0, t = static_cast<double>(bits & 0xffffff) / 16777216.0;
-        if (s + t > 1) {
-            s = 1 - s;
-            t = 1 - t;
-        }
-        const std::array<double, 3> weights{1 - s - t, s, t};
+    for (std::size_t i = 0; !places.empty() && i < kSamples; ++i) {
+        const auto [triangle, weights] = places.at(i, kSamples);
         Sample sample{mixedAt(low.positions, triangle, weights), mixedAt(low.normals, triangle, weights),
                       low.groups.empty() ? 0 : low.groups[triangle]};
         if (normalize(sample.outward) && std::isfinite(sample.place.x + sample.place.y + sample.place.z))

@@ -2,6 +2,7 @@
 #include "maps/rays/ray_directions.h"
 
 #include <algorithm>
+#include <numeric>
 #include <queue>
 #include <span>
 #include <vector>
@@ -11,146 +12,10 @@
 #include "core/base/near_positions.h"
 #include "core/base/vec_math.h"
 #include "core/base/weld.h"
+#include "maps/layout/low_points.h"
 #include "maps/texels/texture_sample.h"
 
 namespace tspace {
-namespace {
-
-std::uint32_t nextCorner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-
-class Search {
-  public:
-    Search(StridedSpan<const Vec3> positions, std::span<const std::uint32_t> roots, double far)
-        : positions_(positions), roots_(roots), far_(far), groups_(positions.count) {
-        for (std::uint32_t i = 0; i < groups_.size(); ++i) groups_[i] = i;
-    }
-
-    HardEdges run() {
-        const auto forHalves = [&](const auto& add) {
-            for (std::uint32_t corner = 0; corner < positions_.count; ++corner) {
-                const std::uint32_t a = roots_[corner], b = roots_[nextCorner(corner)];
-                if (a != b) add(std::min(a, b), std::max(a, b), corner);
-            }
-        };
-        forEachEdge(positions_.count, nullptr, forHalves,
-                    [&](std::uint32_t low, std::uint32_t high, std::span<const HalfEdge> sides) {
-                        joinOrMarkHard(low, high, sides);
-                    });
-        if (found_.edges.empty()) return std::move(found_);
-        spread();
-        found_.nearest.resize(groups_.size());
-        found_.at_edge.resize(groups_.size());
-        for (const auto& [corner, edge] : at_edges_) found_.at_edge[groupOf(corner)] = true;
-        for (std::uint32_t i = 0; i < groups_.size(); ++i) {
-            const std::uint32_t group = groupOf(i);
-            found_.nearest[i] = near_[group];
-            found_.at_edge[i] = found_.at_edge[group];
-        }
-        found_.groups.resize(groups_.size());
-        for (std::uint32_t i = 0; i < groups_.size(); ++i) found_.groups[i] = groupOf(i);
-        return std::move(found_);
-    }
-
-  private:
-    [[nodiscard]] DVec3 normalOf(std::uint32_t corner) const {
-        const std::uint32_t first = corner - corner % 3;
-        const DVec3 at = toDouble(positions_[first]);
-        DVec3 normal = cross(toDouble(positions_[first + 1]) - at, toDouble(positions_[first + 2]) - at);
-        return normalize(normal) ? normal : DVec3{};
-    }
-
-    /// Processes the triangles of one edge: marks the edge as hard, or joins the corners at both of its ends.
-    void joinOrMarkHard(std::uint32_t low, std::uint32_t high, std::span<const HalfEdge> sides) {
-        constexpr double kCosine = 0.861629160441525819;  // cosine of kHardDeg
-        if (sides.size() == 1) return;
-        if (sides.size() == 2) {
-            const DVec3 a = normalOf(cornerOf(sides[0])), b = normalOf(cornerOf(sides[1]));
-            // A degenerate triangle has no normal, and so no angle.
-            const bool has_angle = dot(a, a) > 0 && dot(b, b) > 0;
-            if (!has_angle || dot(a, b) >= kCosine) {
-                for (const std::uint32_t end : {low, high})
-                    joinSets(groups_.data(), cornerAt(cornerOf(sides[0]), end), cornerAt(cornerOf(sides[1]), end));
-                return;
-            }
-        }
-        const auto edge = static_cast<std::uint32_t>(found_.edges.size());
-        DVec3 normal{};
-        for (const HalfEdge side : sides) normal = normal + normalOf(cornerOf(side));
-        const std::uint32_t first = cornerOf(sides[0]);
-        found_.edges.push_back({{first, nextCorner(first)}, normalize(normal) ? normal : DVec3{}});
-        for (const HalfEdge side : sides) {
-            at_edges_.push_back({cornerOf(side), edge});
-            at_edges_.push_back({nextCorner(cornerOf(side)), edge});
-        }
-    }
-
-    [[nodiscard]] std::uint32_t cornerAt(std::uint32_t side, std::uint32_t root) const {
-        return roots_[side] == root ? side : nextCorner(side);
-    }
-
-    /// Returns the first corner of a corner's group.
-    std::uint32_t groupOf(std::uint32_t corner) { return rootOf(groups_.data(), corner); }
-
-    [[nodiscard]] double distanceTo(std::uint32_t edge, std::uint32_t corner) const {
-        const auto& [from, to] = found_.edges[edge].corners;
-        return std::sqrt(
-            squaredDistanceTo(toDouble(positions_[corner]), toDouble(positions_[from]), toDouble(positions_[to])));
-    }
-
-    struct Reached {
-        double distance = 0;
-        std::uint32_t group = 0, edge = 0;
-        bool operator<(const Reached& other) const {
-            if (distance != other.distance) return distance > other.distance;
-            return group != other.group ? group > other.group : edge > other.edge;
-        }
-    };
-
-    /// Propagates hard edges from corners to the other corners of their triangles, nearest first. A corner propagates
-    /// the first two edges that reach it.
-    void spread() {
-        near_.assign(groups_.size(), {HardEdges::kNone, HardEdges::kNone});
-        // Linked lists of the corners of each group.
-        std::vector<std::uint32_t> first(groups_.size(), HardEdges::kNone), next(groups_.size(), HardEdges::kNone);
-        for (auto corner = static_cast<std::uint32_t>(groups_.size()); corner-- > 0;) {
-            const std::uint32_t group = groupOf(corner);
-            next[corner] = first[group];
-            first[group] = corner;
-        }
-        std::priority_queue<Reached> queue;
-        for (const auto& [corner, edge] : at_edges_) queue.push({0, groupOf(corner), edge});
-        while (!queue.empty()) {
-            const Reached reached = queue.top();
-            queue.pop();
-            auto& near = near_[reached.group];
-            if (near[0] == reached.edge || near[1] != HardEdges::kNone) continue;
-            near[near[0] == HardEdges::kNone ? 0 : 1] = reached.edge;
-            for (std::uint32_t at = first[reached.group]; at != HardEdges::kNone; at = next[at]) {
-                for (std::uint32_t other = nextCorner(at); other != at; other = nextCorner(other)) {
-                    const std::uint32_t group = groupOf(other);
-                    if (near_[group][0] == reached.edge || near_[group][1] != HardEdges::kNone) continue;
-                    const double distance = distanceTo(reached.edge, other);
-                    if (distance <= far_) queue.push({distance, group, reached.edge});
-                }
-            }
-        }
-    }
-
-    StridedSpan<const Vec3> positions_;
-    std::span<const std::uint32_t> roots_;
-    double far_;
-    std::vector<std::uint32_t> groups_;  ///< disjoint sets of corners with equal positions whose faces meet smoothly
-    std::vector<std::array<std::uint32_t, 2>> at_edges_ = {};  ///< pairs of a corner at a hard edge and that edge
-    std::vector<std::array<std::uint32_t, 2>> near_ = {};      ///< hard edges near each group
-    HardEdges found_ = {};
-};
-
-}  // namespace
-
-HardEdges findHardEdges(StridedSpan<const Vec3> positions, std::span<const std::uint32_t> roots, double far) {
-    return Search(positions, roots, far).run();
-}
-
 namespace {
 
 /// Maximum ratio of the cage distance at a corner to that at its faces. Without this limit, the distance at spikes
@@ -180,14 +45,11 @@ struct WholeMesh {
         }
         const NearPositions near({.positions = view()}, weld_distance, allocator, parallel);
         if (!near.empty()) positions = near.moved(view());
-        for (std::size_t i = 0; i < faces.size(); ++i) {
-            const DVec3 at = toDouble(positions[3 * i]);
-            faces[i] = unitOr(cross(toDouble(positions[3 * i + 1]) - at, toDouble(positions[3 * i + 2]) - at), {});
-        }
+        for (std::size_t i = 0; i < faces.size(); ++i) faces[i] = unitOr(faceVector(view(), i), {});
         roots = weldPositions({.positions = view()}, allocator, parallel);
         if (roots.empty()) {
             roots = Buffer<std::uint32_t>(allocator, positions.size());
-            for (std::uint32_t i = 0; i < roots.size(); ++i) roots[i] = i;
+            std::iota(roots.begin(), roots.end(), 0U);
         }
     }
 
@@ -244,6 +106,145 @@ Buffer<Vec3> averagedOffsets(const WholeMesh& mesh, const Buffer<Vec3>& means, s
     return ways;
 }
 
+std::uint32_t nextCorner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+
+/// Hard edges of a mesh, at which faces meet at an angle, and the nearest hard edges of each corner.
+struct HardEdges {
+    struct Edge {
+        std::array<std::uint32_t, 2> corners = {};  ///< the two ends of the edge
+        DVec3 normal = {};                          ///< unit vector along the mean of the normals of its faces, or zero
+    };
+    std::vector<Edge> edges = {};
+    // The two nearest hard edges of each corner, reached over faces that meet smoothly, at most `far` away. Empty, like
+    // the other arrays, if no edge is hard.
+    std::vector<std::array<std::uint32_t, 2>> nearest = {};
+    /// Group ID of each corner. Corners at one position whose faces meet smoothly have the same ID, which is the index
+    /// of one of these corners.
+    std::vector<std::uint32_t> groups = {};
+    std::vector<bool> at_edge = {};  ///< flag of each group: a hard edge starts or ends at one of its corners
+};
+
+/// Search for hard edges. Linear time, except for sorting the edges.
+class HardEdgeSearch {
+  public:
+    HardEdgeSearch(const WholeMesh& mesh, double far) : mesh_(mesh), far_(far), groups_(mesh.positions.size()) {
+        std::iota(groups_.begin(), groups_.end(), 0U);
+    }
+
+    HardEdges run() {
+        const auto forHalves = [&](const auto& add) {
+            for (std::uint32_t corner = 0; corner < mesh_.positions.size(); ++corner) {
+                const std::uint32_t a = mesh_.roots[corner], b = mesh_.roots[nextCorner(corner)];
+                if (a != b) add(std::min(a, b), std::max(a, b), corner);
+            }
+        };
+        forEachEdge(mesh_.positions.size(), nullptr, forHalves,
+                    [&](std::uint32_t low, std::uint32_t high, std::span<const HalfEdge> sides) {
+                        joinOrMarkHard(low, high, sides);
+                    });
+        if (found_.edges.empty()) return std::move(found_);
+        spread();
+        found_.nearest.resize(groups_.size());
+        found_.at_edge.resize(groups_.size());
+        for (const auto& [corner, edge] : at_edges_) found_.at_edge[groupOf(corner)] = true;
+        for (std::uint32_t i = 0; i < groups_.size(); ++i) {
+            const std::uint32_t group = groupOf(i);
+            found_.nearest[i] = near_[group];
+            found_.at_edge[i] = found_.at_edge[group];
+        }
+        found_.groups.resize(groups_.size());
+        for (std::uint32_t i = 0; i < groups_.size(); ++i) found_.groups[i] = groupOf(i);
+        return std::move(found_);
+    }
+
+  private:
+    [[nodiscard]] const DVec3& normalOf(std::uint32_t corner) const { return mesh_.faces[corner / 3]; }
+
+    /// Processes the triangles of one edge: marks the edge as hard, or joins the corners at both of its ends.
+    void joinOrMarkHard(std::uint32_t low, std::uint32_t high, std::span<const HalfEdge> sides) {
+        constexpr double kCosine = 0.861629160441525819;  // cosine of kHardDeg
+        if (sides.size() == 1) return;
+        if (sides.size() == 2) {
+            const DVec3 a = normalOf(cornerOf(sides[0])), b = normalOf(cornerOf(sides[1]));
+            // A degenerate triangle has no normal, and so no angle.
+            const bool has_angle = dot(a, a) > 0 && dot(b, b) > 0;
+            if (!has_angle || dot(a, b) >= kCosine) {
+                for (const std::uint32_t end : {low, high})
+                    joinSets(groups_.data(), cornerAt(cornerOf(sides[0]), end), cornerAt(cornerOf(sides[1]), end));
+                return;
+            }
+        }
+        const auto edge = static_cast<std::uint32_t>(found_.edges.size());
+        DVec3 normal{};
+        for (const HalfEdge side : sides) normal = normal + normalOf(cornerOf(side));
+        const std::uint32_t first = cornerOf(sides[0]);
+        found_.edges.push_back({{first, nextCorner(first)}, normalize(normal) ? normal : DVec3{}});
+        for (const HalfEdge side : sides) {
+            at_edges_.push_back({cornerOf(side), edge});
+            at_edges_.push_back({nextCorner(cornerOf(side)), edge});
+        }
+    }
+
+    [[nodiscard]] std::uint32_t cornerAt(std::uint32_t side, std::uint32_t root) const {
+        return mesh_.roots[side] == root ? side : nextCorner(side);
+    }
+
+    /// Returns the first corner of a corner's group.
+    std::uint32_t groupOf(std::uint32_t corner) { return rootOf(groups_.data(), corner); }
+
+    [[nodiscard]] double distanceTo(std::uint32_t edge, std::uint32_t corner) const {
+        const auto& [from, to] = found_.edges[edge].corners;
+        return std::sqrt(squaredDistanceTo(toDouble(mesh_.positions[corner]), toDouble(mesh_.positions[from]),
+                                           toDouble(mesh_.positions[to])));
+    }
+
+    struct Reached {
+        double distance = 0;
+        std::uint32_t group = 0, edge = 0;
+        bool operator<(const Reached& other) const {
+            if (distance != other.distance) return distance > other.distance;
+            return group != other.group ? group > other.group : edge > other.edge;
+        }
+    };
+
+    /// Propagates hard edges from corners to the other corners of their triangles, nearest first. A corner propagates
+    /// the first two edges that reach it.
+    void spread() {
+        near_.assign(groups_.size(), {kNoHardEdge, kNoHardEdge});
+        // Linked lists of the corners of each group.
+        std::vector<std::uint32_t> first(groups_.size(), kNoHardEdge), next(groups_.size(), kNoHardEdge);
+        for (auto corner = static_cast<std::uint32_t>(groups_.size()); corner-- > 0;) {
+            const std::uint32_t group = groupOf(corner);
+            next[corner] = first[group];
+            first[group] = corner;
+        }
+        std::priority_queue<Reached> queue;
+        for (const auto& [corner, edge] : at_edges_) queue.push({0, groupOf(corner), edge});
+        while (!queue.empty()) {
+            const Reached reached = queue.top();
+            queue.pop();
+            auto& near = near_[reached.group];
+            if (near[0] == reached.edge || near[1] != kNoHardEdge) continue;
+            near[near[0] == kNoHardEdge ? 0 : 1] = reached.edge;
+            for (std::uint32_t at = first[reached.group]; at != kNoHardEdge; at = next[at]) {
+                for (std::uint32_t other = nextCorner(at); other != at; other = nextCorner(other)) {
+                    const std::uint32_t group = groupOf(other);
+                    if (near_[group][0] == reached.edge || near_[group][1] != kNoHardEdge) continue;
+                    const double distance = distanceTo(reached.edge, other);
+                    if (distance <= far_) queue.push({distance, group, reached.edge});
+                }
+            }
+        }
+    }
+
+    const WholeMesh& mesh_;
+    double far_;
+    std::vector<std::uint32_t> groups_;  ///< disjoint sets of corners with equal positions whose faces meet smoothly
+    std::vector<std::array<std::uint32_t, 2>> at_edges_ = {};  ///< pairs of a corner at a hard edge and that edge
+    std::vector<std::array<std::uint32_t, 2>> near_ = {};      ///< hard edges near each group
+    HardEdges found_ = {};
+};
+
 /// Returns the mean normal of the faces that meet smoothly at a corner with a hard edge, and `averaged` for other
 /// corners.
 Buffer<Vec3> straightOffsets(const WholeMesh& mesh, const HardEdges& hard, const Buffer<Vec3>& averaged,
@@ -278,7 +279,7 @@ RayField::RayField(const LowPoly& low, const RayOptions& rays, double offset, Pa
     averaged_ = averagedOffsets(mesh, means, shown, allocator);
     if (rays.directions != RayDirections::automatic || has_skew_map) return;
     bend_ = kBend * offset;
-    const HardEdges hard = findHardEdges(mesh.view(), {mesh.roots.data(), mesh.roots.size()}, 2 * bend_);
+    const HardEdges hard = HardEdgeSearch(mesh, 2 * bend_).run();
     if (hard.edges.empty()) return;
     edges_ = Buffer<HardEdge>(allocator, hard.edges.size());
     for (std::size_t i = 0; i < edges_.size(); ++i) {
@@ -304,7 +305,7 @@ bool RayField::at(std::size_t triangle, const std::array<double, 3>& weights, DV
     DVec3 offset = mixedOffset(near_.empty() ? averaged_ : straight_, triangle, weights);
     if (!rays_.skew.texels.empty()) {
         const double part = painted(triangle, weights);
-        offset = (1 - part) * offset + part * faceOf(triangle);
+        offset = (1 - part) * offset + part * unitOr(faceVector(low_.positions, triangle), {});
     } else if (isNearEdges(triangle)) {
         offset = bentAtEdges(triangle, mixedAt(low_.positions, triangle, weights), offset);
     }
@@ -313,22 +314,10 @@ bool RayField::at(std::size_t triangle, const std::array<double, 3>& weights, DV
     return normalizeOrdinary(outward) && std::isfinite(height);
 }
 
-DVec3 RayField::faceOf(std::size_t triangle) const {
-    const DVec3 first = toDouble(low_.positions[3 * triangle]);
-    return unitOr(
-        cross(toDouble(low_.positions[3 * triangle + 1]) - first, toDouble(low_.positions[3 * triangle + 2]) - first),
-        {});
-}
-
 double RayField::painted(std::size_t triangle, const std::array<double, 3>& weights) const {
-    double u = 0, v = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        u += weights[i] * low_.uvs[3 * triangle + i].x;
-        v += weights[i] * low_.uvs[3 * triangle + i].y;
-    }
     const MapImage& image = rays_.skew;
     const TextureShape shape{image.width, image.height, image.wrap_u, image.wrap_v};
-    return static_cast<double>(sampleBilinear(shape, image.texels, {static_cast<float>(u), static_cast<float>(v)}).x);
+    return static_cast<double>(sampleBilinear(shape, image.texels, mixedAt(low_.uvs, triangle, weights)).x);
 }
 
 DVec3 RayField::bentAtEdges(std::size_t triangle, const DVec3& point, const DVec3& straight) const {
@@ -340,7 +329,7 @@ DVec3 RayField::bentAtEdges(std::size_t triangle, const DVec3& point, const DVec
         const std::uint32_t number = near_[3 * triangle + i / 2][i % 2];
         const bool is_known = std::any_of(seen.begin(), seen.begin() + i, [&](auto other) { return other == number; });
         seen[i] = number;
-        if (number == kNoEdge || is_known) continue;
+        if (number == kNoHardEdge || is_known) continue;
         const HardEdge& edge = edges_[number];
         const DVec3 from = toDouble(edge.from), to = toDouble(edge.to);
         const double part = nearestPart(point, from, to);

@@ -29,39 +29,9 @@ inline double squaredDistanceTo(const DVec3& point, const DVec3& a, const DVec3&
     return dot(away, away);
 }
 
-// Hard edges of a low poly, at which faces meet at an angle, and the nearest hard edges of each corner.
-
 /// Angle between faces above which an edge is hard, in degrees: a cylinder with 12 sides is still smooth.
 inline constexpr float kHardDeg = 30.5F;
-
-struct HardEdges {
-    static constexpr std::uint32_t kNone = 0xffffffffu;
-
-    struct Edge {
-        std::array<std::uint32_t, 2> corners = {};  ///< the two ends of the edge
-        DVec3 normal = {};                          ///< unit vector along the mean of the normals of its faces, or zero
-    };
-    std::vector<Edge> edges = {};
-    // The two nearest hard edges of each corner, reached over faces that meet smoothly, at most `far` away. Empty, like
-    // the other arrays, if no edge is hard.
-    std::vector<std::array<std::uint32_t, 2>> nearest = {};
-    /// Group ID of each corner. Corners at one position whose faces meet smoothly have the same ID, which is the index
-    /// of one of these corners.
-    std::vector<std::uint32_t> groups = {};
-    std::vector<bool> at_edge = {};  ///< flag of each group: a hard edge starts or ends at one of its corners
-};
-
-/// Finds hard edges. `positions`: three per triangle. `roots`: for each corner the first corner with the same position.
-/// Linear time, except for sorting the edges. The result does not depend on the number of threads.
-HardEdges findHardEdges(StridedSpan<const Vec3> positions, std::span<const std::uint32_t> roots, double far);
-
-/// Interpolates an attribute, which has three values per triangle, at a point of a triangle.
-template <class T>
-DVec3 mixedAt(const StridedSpan<const T>& values, std::size_t triangle, const std::array<double, 3>& weights) {
-    DVec3 sum{};
-    for (std::size_t i = 0; i < 3; ++i) sum = sum + weights[i] * toDouble(values[3 * triangle + i]);
-    return sum;
-}
+inline constexpr std::uint32_t kNoHardEdge = 0xffffffffu;
 
 /// Edge at which faces meet at more than kHardDeg degrees.
 struct HardEdge {
@@ -83,17 +53,15 @@ class RayField {
     bool at(std::size_t triangle, const std::array<double, 3>& weights, DVec3& outward, double& height) const;
 
   private:
-    static constexpr std::uint32_t kNoEdge = 0xffffffffu;
     /// Hard edges nearest to a corner, reached over faces that meet smoothly.
     using NearEdges = std::array<std::uint32_t, 2>;
 
-    [[nodiscard]] DVec3 faceOf(std::size_t triangle) const;
     [[nodiscard]] double painted(std::size_t triangle, const std::array<double, 3>& weights) const;
     /// Returns whether a corner of the triangle has hard edges nearby.
     [[nodiscard]] bool isNearEdges(std::size_t triangle) const {
         if (near_.empty()) return false;
         const NearEdges* const corners = near_.data() + 3 * triangle;
-        return corners[0][0] != kNoEdge || corners[1][0] != kNoEdge || corners[2][0] != kNoEdge;
+        return corners[0][0] != kNoHardEdge || corners[1][0] != kNoHardEdge || corners[2][0] != kNoHardEdge;
     }
     /// Returns the direction at a point near hard edges. `straight`: direction of the point's face.
     [[nodiscard]] DVec3 bentAtEdges(std::size_t triangle, const DVec3& point, const DVec3& straight) const;
