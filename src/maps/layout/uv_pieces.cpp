@@ -5,6 +5,7 @@
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/sort.h"
+#include "core/mesh/surface/uvs.h"
 #include "maps/layout/low_points.h"
 
 namespace tspace {
@@ -29,9 +30,8 @@ class Pieces {
   private:
     /// Returns the orientation of a triangle's UVs: 1 or -1, or 0 if the UVs have no area.
     [[nodiscard]] int turnOf(std::size_t triangle) const {
-        const Vec2 a = low_.uvs[3 * triangle], b = low_.uvs[3 * triangle + 1], c = low_.uvs[3 * triangle + 2];
-        const double area = (static_cast<double>(b.x) - a.x) * (static_cast<double>(c.y) - a.y) -
-                            (static_cast<double>(c.x) - a.x) * (static_cast<double>(b.y) - a.y);
+        const StridedSpan<const Vec2>& uvs = low_.uvs;
+        const double area = signedUvArea(uvs[3 * triangle], uvs[3 * triangle + 1], uvs[3 * triangle + 2], false);
         return area > 0 ? 1 : area < 0 ? -1 : 0;
     }
 

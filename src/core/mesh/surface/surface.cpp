@@ -112,7 +112,8 @@ EqualVertices findEqualVertices(const StridedSpan<const Vec3>& positions, const 
     EqualVertices result;
     result.class_of.resize(positions.count);
     for (std::size_t v = 0; v < positions.count; ++v) {
-        const Vec3 &p = positions[v], &n = normals[v];
+        const Vec3& p = positions[v];
+        const Vec3 n = normals.empty() ? Vec3{} : normals[v];
         const Vec2 uv = uvs.empty() ? Vec2{} : uvs[v];
         result.class_of[v] = keys.indexOf({weldBits(p.x), weldBits(p.y), weldBits(p.z), weldBits(n.x), weldBits(n.y),
                                            weldBits(n.z), weldBits(uv.x), weldBits(uv.y)});

@@ -147,7 +147,7 @@ Surface describeSurface(const TangentView& mesh);
 /// decides, or if the triangle has no area. Normals are ignored. Linear.
 std::vector<std::uint8_t> uvVotes(const MeshView& triangles);
 
-// Equality of vertices: by position and normal, or by position, normal and UV.
+// Equality of vertices: by position, and by normal and UV.
 
 /// Returns a key for UniqueIndex: equal positions have equal keys, with both zeros equal.
 inline std::array<std::uint32_t, 3> positionKey(const Vec3& p) { return {weldBits(p.x), weldBits(p.y), weldBits(p.z)}; }
@@ -157,8 +157,8 @@ struct EqualVertices {
     std::size_t class_count = 0;               ///< number of classes, in order of their first vertices
 };
 
-/// Finds equal vertices. One entry per vertex in each array; `uvs` may be empty. Compares bits, but both zeros are
-/// equal. Expected linear time.
+/// Finds equal vertices. One entry per vertex in each array; `normals` and `uvs` may be empty. Compares bits, but both
+/// zeros are equal. Expected linear time.
 EqualVertices findEqualVertices(const StridedSpan<const Vec3>& positions, const StridedSpan<const Vec3>& normals,
                                 const StridedSpan<const Vec2>& uvs);
 EqualVertices findEqualVertices(const TangentView& mesh, bool with_uvs);

@@ -8,41 +8,29 @@
 #include <numeric>
 
 #include "core/base/disjoint_sets.h"
-#include "core/base/unique_index.h"
+#include "core/base/mesh_loops.h"
 #include "core/base/vec_math.h"
+#include "core/mesh/surface/surface.h"
 
 namespace tspace {
 namespace {
 
-/// Returns, for each vertex, the number of its combination of position and UV.
-std::vector<std::uint32_t> weldVertices(std::span<const Vec3> positions, std::span<const Vec2> uvs) {
-    UniqueIndex<std::array<std::uint32_t, 5>> points(positions.size());
-    std::vector<std::uint32_t> welded(positions.size());
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        welded[i] = points.indexOf({weldBits(positions[i].x), weldBits(positions[i].y), weldBits(positions[i].z),
-                                    weldBits(uvs[i].x), weldBits(uvs[i].y)});
-    }
-    return welded;
-}
-
 /// Returns the parents of triangles in a forest of disjoint sets (disjoint_sets.h), one set per UV island.
-std::vector<std::uint32_t> joinIslands(std::span<const std::uint32_t> corners,
-                                       const std::vector<std::uint32_t>& welded) {
+std::vector<std::uint32_t> joinIslands(std::span<const std::uint32_t> corners, const EqualVertices& equal) {
     std::vector<std::uint32_t> islands(corners.size() / 3);
     std::iota(islands.begin(), islands.end(), 0U);
-    UniqueIndex<std::array<std::uint32_t, 2>> edges(corners.size());
-    std::vector<std::uint32_t> first_triangle;
-    for (std::size_t corner = 0; corner < corners.size(); ++corner) {
-        const auto triangle = static_cast<std::uint32_t>(corner / 3);
-        const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
-        const auto [low, high] = std::minmax(welded[corners[corner]], welded[corners[next]]);
-        const std::uint32_t edge = edges.indexOf({low, high});
-        if (edge == first_triangle.size()) {
-            first_triangle.push_back(triangle);
-        } else {
-            joinSets(islands.data(), first_triangle[edge], triangle);
+    const auto forHalves = [&](const auto& add) {
+        for (std::uint32_t corner = 0; corner < corners.size(); ++corner) {
+            const std::uint32_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
+            const auto [low, high] = std::minmax(equal.class_of[corners[corner]], equal.class_of[corners[next]]);
+            add(low, high, corner);
         }
-    }
+    };
+    forEachEdge(equal.class_count, nullptr, forHalves,
+                [&](std::uint32_t, std::uint32_t, std::span<const HalfEdge> halves) {
+                    for (const HalfEdge half : halves)
+                        joinSets(islands.data(), cornerOf(halves[0]) / 3, cornerOf(half) / 3);
+                });
     return islands;
 }
 
@@ -50,7 +38,7 @@ std::vector<std::uint32_t> joinIslands(std::span<const std::uint32_t> corners,
 
 UvIslands findUvIslands(std::span<const std::uint32_t> corners, std::span<const Vec3> positions,
                         std::span<const Vec2> uvs) {
-    std::vector<std::uint32_t> sets = joinIslands(corners, weldVertices(positions, uvs));
+    std::vector<std::uint32_t> sets = joinIslands(corners, findEqualVertices(positions, {}, uvs));
     UvIslands islands;
     islands.island_of.resize(corners.size() / 3);
     constexpr std::uint32_t kNew = 0xffffffffu;
