@@ -69,9 +69,6 @@ std::optional<FloatImage> decodeExr(ByteSpan bytes, std::uint64_t most_pixels, s
 /// Fills texels that are not finite from their neighbors. If the floats are used as vectors and their range is -1 to 1,
 /// maps them to 0 to 1, and alpha too if some of it is below 0. Sets not_finite and range_text.
 void readFloats(ImageUse use, FloatImage& image);
-std::uint8_t roundedChannel(float channel);
-/// Rounds to 8 bits per channel.
-RgbImage roundedImage(const FloatImage& image);
 
 // Decoding and encoding of PNG pixels; flip_png.cpp handles the chunks. The bindings use other decoders than libspng.
 

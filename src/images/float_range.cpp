@@ -144,10 +144,6 @@ void readFloats(ImageUse use, FloatImage& image) {
     fillHoles(image, std::move(is_broken), use == ImageUse::vectors ? Vec3{0.5F, 0.5F, 1} : Vec3{0.5F, 0.5F, 0.5F});
 }
 
-std::uint8_t roundedChannel(float channel) {
-    return static_cast<std::uint8_t>(std::clamp(channel, 0.0F, 1.0F) * 255.0F + 0.5F);
-}
-
 RgbImage roundedImage(const FloatImage& image) {
     RgbImage rounded{image.width, image.height, {}, image.not_finite, image.layer_text};
     rounded.rgb.reserve(3 * image.texels.size());

@@ -2,6 +2,7 @@
 // Images as arrays of numbers, and information about their source file.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -15,6 +16,11 @@ namespace tspace {
 using ByteSpan = std::span<const std::uint8_t>;
 
 enum class ImageFormat { unknown, png, jpeg, webp, ktx2, basis, dds, avif, exr, tga };
+
+/// Rounds a channel from 0 to 1 to 8 bits. NaN becomes 0.
+inline std::uint8_t roundedChannel(float channel) {
+    return channel > 0 ? static_cast<std::uint8_t>(std::min(channel, 1.0F) * 255.0F + 0.5F) : std::uint8_t{0};
+}
 
 /// Image with 8 bits per channel; the first row is the top row.
 struct RgbImage {
@@ -65,6 +71,9 @@ struct FloatImage {
     /// Clause on the layer of an EXR that was read, and the layers that were not; empty if there is only one.
     std::string layer_text = {};
 };
+
+/// Rounds to 8 bits per channel.
+RgbImage roundedImage(const FloatImage& image);
 
 /// Pixels of 3 or 4 channels with 8 bits each; the first row is the top row.
 struct ChannelImage {

@@ -33,11 +33,6 @@ void addFooter(std::vector<std::uint8_t>& file) {
     file.push_back(0);
 }
 
-std::uint8_t channelByte(float channel) {
-    if (!(channel > 0)) return 0;  // also true for NaN
-    return channel >= 1 ? 255 : static_cast<std::uint8_t>(std::floor(channel * 255.0F + 0.5F));
-}
-
 }  // namespace
 
 std::optional<std::vector<std::uint8_t>> encodeTga(const FloatImage& image) {
@@ -47,8 +42,8 @@ std::optional<std::vector<std::uint8_t>> encodeTga(const FloatImage& image) {
     for (std::size_t i = 0; i < image.texels.size(); ++i) {
         const Vec3& texel = image.texels[i];
         for (const float channel : {texel.z, texel.y, texel.x})
-            file->push_back(std::isfinite(channel) ? channelByte(channel) : 0);
-        if (has_alpha) file->push_back(channelByte(image.alpha[i]));
+            file->push_back(std::isfinite(channel) ? roundedChannel(channel) : 0);
+        if (has_alpha) file->push_back(roundedChannel(image.alpha[i]));
     }
     addFooter(*file);
     return file;

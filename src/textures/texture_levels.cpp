@@ -203,8 +203,7 @@ Texture roughnessTexture(std::span<const RoughnessLevel> levels) {
         std::vector<std::uint8_t>& bytes = texture.levels.emplace_back();
         bytes.reserve(4 * level.texels.size());
         for (const Vec3& texel : level.texels) {
-            for (const float part : {texel.x, texel.y, texel.z, 1.0F})
-                bytes.push_back(static_cast<std::uint8_t>(std::clamp(part, 0.0F, 1.0F) * 255 + 0.5F));
+            for (const float part : {texel.x, texel.y, texel.z, 1.0F}) bytes.push_back(roundedChannel(part));
         }
     }
     return texture;

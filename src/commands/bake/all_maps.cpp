@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kMaxListedIds = 256;
 
 std::array<std::uint8_t, 3> bytesOf(const Vec3& color) {
-    return {storedByte(color.x), storedByte(color.y), storedByte(color.z)};
+    return {roundedChannel(color.x), roundedChannel(color.y), roundedChannel(color.z)};
 }
 
 std::uint64_t maxPixels(std::uint64_t memory_limit) {
@@ -236,7 +236,7 @@ std::vector<std::uint8_t> layerPng(BakedLayer& layer, const BakedMap& map, unsig
     if (has_bytes) {
         RgbImage image{.width = map.width, .height = map.height};
         image.rgb.reserve(values.size());
-        for (const float value : values) image.rgb.push_back(file.is_srgb ? lightToSrgb(value) : storedByte(value));
+        for (const float value : values) image.rgb.push_back(file.is_srgb ? lightToSrgb(value) : roundedChannel(value));
         png = encodeByName(file.path, image);
     } else {
         FloatImage image{.width = map.width, .height = map.height, .bits = bits};

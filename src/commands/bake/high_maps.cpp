@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "commands/bake/high_maps.h"
 
-#include <algorithm>
-
 #include "commands/check/normal_map.h"
 #include "commands/shared/map_image_file.h"
 #include "images/texture_vectors.h"
@@ -13,15 +11,9 @@ namespace {
 
 /// Returns the direction of the green channel, determined from the slopes of the map.
 GreenVerdict greenOf(const FloatImage& image) {
-    RgbImage bytes{.width = image.width, .height = image.height};
-    bytes.rgb.reserve(3 * image.texels.size());
-    for (const Vec3& texel : image.texels) {
-        for (const float channel : {texel.x, texel.y, texel.z})
-            bytes.rgb.push_back(static_cast<std::uint8_t>(std::clamp(channel, 0.0F, 1.0F) * 255 + 0.5F));
-    }
     TexelMask all(image.width, image.height);
     all.fillAll();
-    return GreenBlocks(bytes, all).all().verdict;
+    return GreenBlocks(roundedImage(image), all).all().verdict;
 }
 
 }  // namespace

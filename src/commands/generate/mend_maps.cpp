@@ -60,12 +60,10 @@ std::string whyUnchanged(const JudgedMap& map) {
 }
 
 bool isPicture(const FloatImage& image) {
-    const auto byteOf = [](float part) {
-        return static_cast<std::uint8_t>(std::clamp(part, 0.0F, 1.0F) * 255.0F + 0.5F);
-    };
     std::vector<TexelBytes> texels;
     texels.reserve(image.texels.size());
-    for (const Vec3& texel : image.texels) texels.push_back({byteOf(texel.x), byteOf(texel.y), byteOf(texel.z), 255});
+    for (const Vec3& texel : image.texels)
+        texels.push_back({roundedChannel(texel.x), roundedChannel(texel.y), roundedChannel(texel.z), 255});
     return analyzeTexels(texels, false, {}).content == MapContent::picture;
 }
 

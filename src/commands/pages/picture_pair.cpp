@@ -115,8 +115,8 @@ class PairSearch {
         const Camera camera = view.camera(kTrial);
         const std::vector<bool> shown = pixelsOfPrimitive(before_, after_, view, kTrial);
         const std::size_t pixels = shown.size();
-        const std::array<std::uint8_t, 3> background{storedByte(kBackground.x), storedByte(kBackground.y),
-                                                     storedByte(kBackground.z)};
+        const std::array<std::uint8_t, 3> background{roundedChannel(kBackground.x), roundedChannel(kBackground.y),
+                                                     roundedChannel(kBackground.z)};
         Trial best{.view = view, .to_light = ringLight(camera, 0)};
         for (int i = 0; i < kLights; ++i) {
             const DVec3 light = ringLight(camera, i);

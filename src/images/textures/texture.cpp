@@ -94,10 +94,6 @@ bool hasAlpha(const TextureFile& texture) {
     return source != TextureFile::kOne && (source != 3 || texture.format.channels == 4);
 }
 
-std::uint8_t byteOf(float part) {
-    return part > 0 ? static_cast<std::uint8_t>(std::min(part, 1.0F) * 255.0F + 0.5F) : std::uint8_t{0};
-}
-
 std::optional<TextureFile> openTexture(ByteSpan bytes, std::uint64_t most_pixels, std::string& why,
                                        std::size_t level = 0) {
     Result<TextureFile> texture = readTextureHeader(bytes);
@@ -209,7 +205,7 @@ std::optional<RgbImage> decodeTexture(ByteSpan bytes, std::uint64_t most_pixels,
     level.forRows([&](std::size_t y, std::span<const Rgba> row) {
         std::uint8_t* at = image.rgb.data() + 3 * y * image.width;
         for (const Rgba& texel : row) {
-            for (std::size_t i = 0; i < 3; ++i) *at++ = byteOf(texel[i]);
+            for (std::size_t i = 0; i < 3; ++i) *at++ = roundedChannel(texel[i]);
         }
     });
     return image;
@@ -223,7 +219,7 @@ std::vector<std::uint8_t> decodeTextureAlpha(ByteSpan bytes) {
     std::vector<std::uint8_t> alpha(static_cast<std::size_t>(texture->size.pixels()));
     level.forRows([&](std::size_t y, std::span<const Rgba> row) {
         std::uint8_t* at = alpha.data() + y * texture->size.width;
-        for (const Rgba& texel : row) *at++ = byteOf(texel[3]);
+        for (const Rgba& texel : row) *at++ = roundedChannel(texel[3]);
     });
     return alpha;
 }

@@ -39,7 +39,7 @@ TEST(RenderLegend, IsBelowEveryViewWithoutChangingThePicture) {
         }
         ASSERT_GT(fitting, 0U) << renderShowName(show);
         int inked = 0;
-        for (const std::uint8_t byte : rowsOf(with, 512 - fitting, 512)) inked += byte == storedByte(kPictureInk.x);
+        for (const std::uint8_t byte : rowsOf(with, 512 - fitting, 512)) inked += byte == roundedChannel(kPictureInk.x);
         EXPECT_GT(inked, 300) << renderShowName(show);
     }
 }
@@ -59,7 +59,7 @@ TEST(RenderLegend, FitsIntoPicturesOfAnyWidth) {
             ASSERT_EQ(image.height, 16 + rows);
             for (std::uint32_t y = 16; y < image.height; ++y) {
                 const std::size_t last = std::size_t{3} * ((std::size_t{y} + 1) * width - 1);
-                EXPECT_EQ(image.rgb[last], storedByte(kBackground.x)) << renderShowName(show) << ' ' << width;
+                EXPECT_EQ(image.rgb[last], roundedChannel(kBackground.x)) << renderShowName(show) << ' ' << width;
             }
         }
     }

@@ -61,10 +61,6 @@ std::uint8_t lightToSrgb(float light) {
     return byte;
 }
 
-std::uint8_t storedByte(float value) {
-    return static_cast<std::uint8_t>(value > 0 ? std::min(value, 1.0f) * 255 + 0.5f : 0.0f);
-}
-
 Vec3 heatColor(float degrees) {
     for (std::size_t i = 1; i < kHeatStops.size(); ++i) {
         const HeatStop &from = kHeatStops[i - 1], &to = kHeatStops[i];
@@ -84,9 +80,9 @@ void fillRect(RgbImage& image, std::int64_t left, std::int64_t top, std::int64_t
         for (std::int64_t x = std::max<std::int64_t>(0, left); x < right; ++x) {
             std::uint8_t* pixel =
                 image.rgb.data() + 3 * (static_cast<std::size_t>(y) * image.width + static_cast<std::size_t>(x));
-            pixel[0] = storedByte(color.x);
-            pixel[1] = storedByte(color.y);
-            pixel[2] = storedByte(color.z);
+            pixel[0] = roundedChannel(color.x);
+            pixel[1] = roundedChannel(color.y);
+            pixel[2] = roundedChannel(color.z);
         }
     }
 }

@@ -19,8 +19,6 @@ double srgbToLight(double stored);
 std::vector<float> srgbTable(unsigned bits);
 /// Converts linear light to the nearest sRGB byte. Clamps to 0 to 1; NaN becomes 0.
 std::uint8_t lightToSrgb(float light);
-/// Converts a value from 0 to 1 to a byte, without a transfer curve.
-std::uint8_t storedByte(float value);
 
 /// Colors of the background, and of text and lines on it.
 inline constexpr Vec3 kBackground{0.925f, 0.933f, 0.945f}, kPictureInk{0.15f, 0.16f, 0.18f};

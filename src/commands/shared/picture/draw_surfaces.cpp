@@ -305,7 +305,7 @@ class RowShader {
         for (std::uint32_t x = 0; x < size_.width; ++x) {
             const float color[3] = {share * sums[x].x, share * sums[x].y, share * sums[x].z};
             for (std::size_t c = 0; c < 3; ++c)
-                pixels[3 * x + c] = show_ == RenderShow::lit ? lightToSrgb(color[c]) : storedByte(color[c]);
+                pixels[3 * x + c] = show_ == RenderShow::lit ? lightToSrgb(color[c]) : roundedChannel(color[c]);
         }
     }
 
