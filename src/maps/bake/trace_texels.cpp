@@ -290,27 +290,18 @@ void traceBetween(const MapSurfaces& surfaces, const TracedTexels& traced, const
 
 void addSmoothCells(const TexelPlan& plan, const TexelWindow& window, std::span<const Vec3> texels,
                     std::uint32_t points, const BakeOptions& options, Parallel& parallel, TexelSystem& system) {
-    // Two-point Gauss quadrature in each direction: exact for the integral over the cell, whose integrand is a product
-    // of two bilinear filters.
-    constexpr float kNear = 0.21132487F, kFar = 1 - kNear;
     // The total weight equals that of a cell sampled by rays.
     const float weight = points == 2 ? 1 + kCornerOfCell : static_cast<float>(points * points) / 4;
-    const auto addCell = [&](std::uint32_t x, std::uint32_t row) {
-        const std::size_t here = std::size_t{row} * plan.width, below = std::size_t{system.below(row)} * plan.width;
-        if (plan.cells[std::size_t{window.inImage(row)} * plan.width + x] != TexelCell::smooth) return;
-        const std::uint32_t right = system.right(x);
-        for (const float fy : {kNear, kFar}) {
-            const Vec3 left_side = (1 - fy) * texels[here + x] + fy * texels[below + x];
-            const Vec3 right_side = (1 - fy) * texels[here + right] + fy * texels[below + right];
-            for (const float fx : {kNear, kFar}) {
-                const Vec3 mixed = (1 - fx) * left_side + fx * right_side;
-                system.add(x, row, fx, fy, weighted(weight, sampleOf(options, (1 / length(mixed)) * mixed)));
-            }
-        }
+    const auto unitSample = [&](const Vec3& mixed) {
+        return weighted(weight, sampleOf(options, (1 / length(mixed)) * mixed));
     };
     forNonAdjacentRows(parallel, window.count, [&](std::uint32_t row) {
-        if (!window.hasCells(window.inImage(row))) return;
-        for (std::uint32_t x = 0; x < plan.width; ++x) addCell(x, row);
+        const std::uint32_t y = window.inImage(row);
+        if (!window.hasCells(y)) return;
+        for (std::uint32_t x = 0; x < plan.width; ++x) {
+            if (plan.cells[std::size_t{y} * plan.width + x] == TexelCell::smooth)
+                addCell(x, row, texels, unitSample, system);
+        }
     });
 }
 

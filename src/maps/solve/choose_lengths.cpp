@@ -66,9 +66,6 @@ class Band {
     }
 
     void addCells(std::uint32_t y, TexelSystem& system) const {
-        // Two-point Gauss quadrature in each direction: exact for the integral over the cell, whose integrand is a
-        // product of two bilinear filters.
-        constexpr float kNear = 0.21132487F, kFar = 1 - kNear;
         const std::size_t here = std::size_t{y} * map_.width, below = here + map_.width;
         const std::uint32_t cells = map_.wrap_u == TextureWrap::repeat && map_.width > 1 ? map_.width : map_.width - 1;
         for (std::uint32_t x = 0; x < cells; ++x) {
@@ -76,12 +73,8 @@ class Band {
             const auto isUnknown = [&](std::size_t at) { return roles_[at] == TexelRole::unknown; };
             if (!isUnknown(here + x) && !isUnknown(here + right) && !isUnknown(below + x) && !isUnknown(below + right))
                 continue;
-            for (const float fy : {kNear, kFar}) {
-                const Vec3 left_side = (1 - fy) * vectors_[here + x] + fy * vectors_[below + x];
-                const Vec3 right_side = (1 - fy) * vectors_[here + right] + fy * vectors_[below + right];
-                for (const float fx : {kNear, kFar})
-                    system.add(x, y, fx, fy, sampleOf((1 - fx) * left_side + fx * right_side));
-            }
+            addCell(
+                x, y, {vectors_.data(), vectors_.size()}, [&](const Vec3& mixed) { return sampleOf(mixed); }, system);
         }
     }
 

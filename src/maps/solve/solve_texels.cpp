@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include "core/base/vec_math.h"
 #include "maps/texels/eight_lanes.h"
@@ -83,20 +84,6 @@ namespace {
 /// threads.
 constexpr std::size_t kSystemRows = 2048;
 
-class TaskSums {
-  public:
-    TaskSums(const Allocator* allocator, std::size_t tasks) : of_tasks_(allocator, tasks, 0.0) {}
-    double& operator[](std::size_t task) { return of_tasks_[task]; }
-    [[nodiscard]] double total() const {
-        double sum = 0;
-        for (const double of_task : of_tasks_) sum += of_task;
-        return sum;
-    }
-
-  private:
-    Buffer<double> of_tasks_;
-};
-
 /// Returns the inverse of a texel's diagonal block, for preconditioning.
 SymmetricBlock inverseOf(SymmetricBlock m) {
     m[0] += kHold;
@@ -119,22 +106,22 @@ class Gradients {
         : system_(system), texels_(texels), parallel_(parallel), residual_(allocator, system.rowCount(), Vec3{}),
           direction_(allocator, system.rowCount(), Vec3{}), image_(allocator, system.rowCount(), Vec3{}),
           inverse_(allocator, system.rowCount()), tasks_((system.rowCount() + kSystemRows - 1) / kSystemRows),
-          first_(allocator, tasks_), second_(allocator, tasks_) {}
+          first_(allocator, tasks_, 0.0), second_(allocator, tasks_, 0.0) {}
 
     void run(const StepCallback& report_step) {
         // Each step halves the error, approximately. After the last step the error is below the precision of 16 bits.
         constexpr int kMostSteps = 24;
         constexpr double kSmall = 1e-4;
         begin();
-        double product = first_.total();
+        double product = total(first_);
         const double enough = kSmall * product;
         for (int step = 0; step < kMostSteps && product > enough; ++step) {
             if (report_step) report_step(static_cast<std::uint64_t>(step), kMostSteps);
             multiply();
-            const double curvature = first_.total();
+            const double curvature = total(first_);
             if (!(curvature > 0)) return;
             advance(static_cast<float>(product / curvature));
-            const double next = second_.total();
+            const double next = total(second_);
             turn(static_cast<float>(next / product));
             product = next;
         }
@@ -143,7 +130,7 @@ class Gradients {
   private:
     /// Sets sums[task] to the sum of body(row) over the unknown rows of each task.
     template <class Body>
-    void forUnknowns(TaskSums& sums, const Body& body) {
+    void forUnknowns(Buffer<double>& sums, const Body& body) {
         parallel_.forTasks(tasks_, [&](std::size_t task) {
             double sum = 0;
             const std::size_t end = std::min((task + 1) * kSystemRows, system_.rowCount());
@@ -164,6 +151,7 @@ class Gradients {
                                    });
     }
 
+    static double total(const Buffer<double>& sums) { return std::accumulate(sums.begin(), sums.end(), 0.0); }
     static double product(const Vec3& a, const Vec3& b) { return static_cast<double>(dot(a, b)); }
 
     void begin() {
@@ -210,7 +198,7 @@ class Gradients {
     /// Inverse of the diagonal block of each row, which is stored because recomputing it would take longer.
     Buffer<SymmetricBlock> inverse_;
     std::size_t tasks_;
-    TaskSums first_, second_;
+    Buffer<double> first_, second_;  ///< sums of the tasks
 };
 
 }  // namespace
@@ -261,19 +249,17 @@ class IntegerTexel {
 
     /// Quantized x and y for a given quantized z, with their distances from the real-valued optimum, all in
     /// quantization steps. x is rounded to the nearest integer; y minimizes the error for that x.
-    template <class Number>
     struct PlanarIntegers {
-        Number x, y, error_x, error_y;
+        Eight x, y, error_x, error_y;
     };
-    template <class Number>
-    [[nodiscard]] PlanarIntegers<Number> nearestInPlane(const Number& z) const {
-        const auto nearest = [&](const Number& real) { return whole(between(real + 0.5F, Number(0), Number(last_))); };
-        const Number real_x = Number((start_x_ - slope_x_ + 1) * half_) + Number(slope_x_) * z,
-                     real_y = Number((start_y_ - slope_y_ + 1) * half_) + Number(slope_y_) * z;
-        PlanarIntegers<Number> found;
+    [[nodiscard]] PlanarIntegers nearestInPlane(const Eight& z) const {
+        const auto nearest = [&](const Eight& real) { return whole(between(real + 0.5F, 0.0F, last_)); };
+        const Eight real_x = Eight((start_x_ - slope_x_ + 1) * half_) + Eight(slope_x_) * z,
+                    real_y = Eight((start_y_ - slope_y_ + 1) * half_) + Eight(slope_y_) * z;
+        PlanarIntegers found;
         found.x = nearest(real_x);
         found.error_x = found.x - real_x;
-        found.y = nearest(real_y - Number(m_[1] / m_[3]) * found.error_x);
+        found.y = nearest(real_y - Eight(m_[1] / m_[3]) * found.error_x);
         found.error_y = found.y - real_y;
         return found;
     }
@@ -302,7 +288,7 @@ class IntegerTexel {
         Eight z, least = 1e6F, chosen = -1;
         for (std::size_t lane = 0; lane < 8; ++lane) z.set(lane, static_cast<float>(first + static_cast<int>(lane)));
         for (int i = first; i <= last; i += 8, z = z + 8) {
-            const PlanarIntegers<Eight> at = nearestInPlane(z);
+            const PlanarIntegers at = nearestInPlane(z);
             const Eight moved = z - start_z;
             const Eight value = rest * squares + moved * (linear * half_ + moved * square);
             const Eight error =
@@ -331,7 +317,7 @@ class IntegerTexel {
             z = planes[lane];
         }
         if (z < 0) return start;
-        const PlanarIntegers<Eight> at = nearestInPlane(Eight(z));
+        const PlanarIntegers at = nearestInPlane(Eight(z));
         return {at.x[0] * step_ - 1, at.y[0] * step_ - 1, z * step_ - 1};
     }
 

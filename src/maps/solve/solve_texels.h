@@ -107,6 +107,22 @@ FitSample acrossSample(const Vec3& wanted, float along, float wanted_length);
 /// Returns a sample that measures errors of the vector (x, y, sqrt(1 - x^2 - y^2)), as decoded from two-channel maps.
 FitSample twoChannelSample(const Vec3& wanted);
 
+/// Adds samples of the cell between texel (x, y) and the texels to the right of and below it: sampleOf(mixed) for the
+/// filtered values of `texels`, by two-point Gauss quadrature in each direction. It is exact for the integral over the
+/// cell, whose integrand is a product of two bilinear filters.
+template <class SampleOf>
+void addCell(std::uint32_t x, std::uint32_t y, std::span<const Vec3> texels, const SampleOf& sampleOf,
+             TexelSystem& system) {
+    constexpr float kNear = 0.21132487F, kFar = 1 - kNear;
+    const std::size_t here = std::size_t{y} * system.width(), below = std::size_t{system.below(y)} * system.width();
+    const std::uint32_t right = system.right(x);
+    for (const float fy : {kNear, kFar}) {
+        const Vec3 left_side = (1 - fy) * texels[here + x] + fy * texels[below + x];
+        const Vec3 right_side = (1 - fy) * texels[here + right] + fy * texels[below + right];
+        for (const float fx : {kNear, kFar}) system.add(x, y, fx, fy, sampleOf((1 - fx) * left_side + fx * right_side));
+    }
+}
+
 /// Weight that pulls texels to their initial values, relative to one sample at the texel center. It matters where
 /// samples constrain almost nothing: at the rim of a chart.
 inline constexpr float kHold = 0.004F;
