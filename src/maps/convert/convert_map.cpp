@@ -30,24 +30,20 @@ MapReading readingOf(const MapSide& side) {
 
 bool hasFrames(const MapSide& side) { return side.space == MapSpace::tangent && !side.uvs.empty(); }
 
-/// Counts of texels and sums of angles over a range of texels. The sums of all ranges are added in order.
-struct Sums {
-    std::uint64_t converted = 0, changed = 0, background = 0, without_frame = 0, below_horizon = 0, unmatched = 0,
-                  apart = 0;
-    double change = 0, most_change = 0;
+/// Counts of the texels of a range, in which mean_change_deg is a sum. Those of all ranges are added in order.
+using Counts = ConvertMapReport;
 
-    void add(const Sums& other) {
-        converted += other.converted;
-        changed += other.changed;
-        background += other.background;
-        without_frame += other.without_frame;
-        below_horizon += other.below_horizon;
-        unmatched += other.unmatched;
-        apart += other.apart;
-        change += other.change;
-        most_change = std::max(most_change, other.most_change);
-    }
-};
+void addCounts(Counts& to, const Counts& part) {
+    to.converted += part.converted;
+    to.changed += part.changed;
+    to.background += part.background;
+    to.without_frame += part.without_frame;
+    to.below_horizon += part.below_horizon;
+    to.unmatched += part.unmatched;
+    to.apart += part.apart;
+    to.mean_change_deg += part.mean_change_deg;
+    to.max_change_deg = std::max(to.max_change_deg, part.max_change_deg);
+}
 
 // -- matching of the triangles of both sides --
 
@@ -164,17 +160,17 @@ class Conversion {
             vectors_ = Buffer<Vec3>(allocator_, texels, Vec3{});
             keeps_ = Buffer<bool>(allocator_, texels, true);
         }
-        Buffer<Sums> sums(allocator_, tasks, Sums{});
+        Buffer<Counts> counts(allocator_, tasks, Counts{});
         for (std::size_t first = 0; first < tasks; first += kTasksOfStep) {
             if (progress) progress("converting texels", first, tasks);
             parallel_.forTasks(std::min(kTasksOfStep, tasks - first), [&](std::size_t task) {
                 const std::size_t begin = (first + task) * kTexelsOfTask;
                 for (std::size_t i = begin; i < std::min(begin + kTexelsOfTask, texels); ++i)
-                    convert(i, sums[first + task]);
+                    convert(i, counts[first + task]);
             });
         }
-        Sums all;
-        for (const Sums& part : sums) all.add(part);
+        Counts all;
+        for (const Counts& part : counts) addCounts(all, part);
         if (vectors_.size() > 0) all.changed = chooseJointly(all.changed);
         return reportOf(all);
     }
@@ -232,7 +228,7 @@ class Conversion {
         return changed;
     }
 
-    void convert(std::size_t texel, Sums& sums) {
+    void convert(std::size_t texel, Counts& counts) {
         const Vec3 before = map_.texels[texel];
         out_[texel] = before;
         ShadingFrame from{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, to = from;
@@ -241,11 +237,11 @@ class Conversion {
             const bool is_shown = kind == TexelCoverage::inside || places_.is_read[texel] ||
                                   (kind == TexelCoverage::adjacent && options_.padding > 0);
             if (!is_shown) {
-                ++sums.background;
+                ++counts.background;
                 return;
             }
-            if (!findFrames(texel, from, to, sums)) {
-                ++sums.unmatched;
+            if (!findFrames(texel, from, to, counts)) {
+                ++counts.unmatched;
                 return;
             }
         }
@@ -253,7 +249,7 @@ class Conversion {
         const auto converted = convertTexel(before, from, readingOf(from_), to, readingOf(to_),
                                             {.bits = options_.bits, .are_chosen = is_chosen_later});
         if (!converted) {
-            ++sums.without_frame;
+            ++counts.without_frame;
             return;
         }
         if (is_chosen_later) {
@@ -263,12 +259,12 @@ class Conversion {
         }
         if (!is_chosen_later || converted->stays) {
             out_[texel] = converted->texel;
-            sums.changed += converted->texel == before ? 0 : 1;
+            counts.changed += converted->texel == before ? 0 : 1;
         }
-        ++sums.converted;
-        sums.below_horizon += converted->is_below_horizon ? 1 : 0;
-        sums.change += converted->change_deg;
-        sums.most_change = std::max(sums.most_change, converted->change_deg);
+        ++counts.converted;
+        counts.below_horizon += converted->is_below_horizon ? 1 : 0;
+        counts.mean_change_deg += converted->change_deg;
+        counts.max_change_deg = std::max(counts.max_change_deg, converted->change_deg);
     }
 
     /// Counts conflicts. Must be called before any texel is written, because `out_` may be the input.
@@ -301,7 +297,7 @@ class Conversion {
     }
 
     /// Computes the source and target frame of a texel. Returns false if the other mesh has no triangle at the texel.
-    [[nodiscard]] bool findFrames(std::size_t texel, ShadingFrame& from, ShadingFrame& to, Sums& sums) const {
+    [[nodiscard]] bool findFrames(std::size_t texel, ShadingFrame& from, ShadingFrame& to, Counts& counts) const {
         const TexelPlace& place = places_.places[texel];
         const std::array<double, 3> weights = weightsAt(triangles_, places_.shape, place);
         if (one_mesh_) {
@@ -313,7 +309,7 @@ class Conversion {
         other_place.triangle = matches_[place.triangle];
         if (other_place.triangle == kNoTriangle) other_place = other_places_.places[texel];
         if (other_place.triangle == kNoTriangle) return false;
-        if (matches_[place.triangle] == kNoTriangle && isApart(place, other_place)) ++sums.apart;
+        if (matches_[place.triangle] == kNoTriangle && isApart(place, other_place)) ++counts.apart;
         const ShadingFrame main_frame = sideFrame(main_, place.triangle, weights);
         const ShadingFrame other_frame =
             sideFrame(other_, other_place.triangle, weightsAt(other_triangles_, places_.shape, other_place));
@@ -330,24 +326,15 @@ class Conversion {
         return sideFrame(with_mesh, triangle, weights);
     }
 
-    [[nodiscard]] ConvertMapReport reportOf(const Sums& sums) const {
-        ConvertMapReport report;
-        report.converted = sums.converted;
-        report.changed = sums.changed;
-        report.background = sums.background;
-        report.without_frame = sums.without_frame;
-        report.below_horizon = sums.below_horizon;
-        report.unmatched = sums.unmatched;
+    [[nodiscard]] ConvertMapReport reportOf(ConvertMapReport report) const {
         report.overlapping = places_.counts.overlapping;
         report.conflicting = conflict_count_;
-        report.apart = sums.apart;
         report.degenerate_uv_count = places_.counts.without_area;
         report.bad_uv_count = places_.counts.not_finite + places_.counts.too_far;
-        if (sums.converted > 0) report.mean_change_deg = sums.change / static_cast<double>(sums.converted);
-        report.max_change_deg = sums.most_change;
+        if (report.converted > 0) report.mean_change_deg /= static_cast<double>(report.converted);
         if (options_.bits != 32) {
             report.half_step_deg = 180 / std::numbers::pi / (TexelNumbers{options_.bits}.most());
-            report.is_below_half_step = sums.changed > 0 && report.mean_change_deg < report.half_step_deg;
+            report.is_below_half_step = report.changed > 0 && report.mean_change_deg < report.half_step_deg;
         }
         return report;
     }
