@@ -115,9 +115,9 @@ TEST(Rays, FindTheOutermostAndTheInnermostFront) {
             if (-at >= -0.4 && -at <= 0.7) backs_in_reach.push_back(at);
         }
         RayHit outer, inner;
-        const bool is_hit = (*rays)->outermost(from, outward, -0.4, 0.7, 0, outer);
-        EXPECT_EQ((*rays)->innermost(from, outward, -0.4, 0.7, 0, inner), is_hit);
-        const RayCrossings crossings = (*rays)->crossings(from, outward, -0.4, 0.7, 0);
+        const bool is_hit = (*rays)->outermost({from, outward, -0.4, 0.7}, outer);
+        EXPECT_EQ((*rays)->innermost({from, outward, -0.4, 0.7}, inner), is_hit);
+        const RayCrossings crossings = (*rays)->crossings({from, outward, -0.4, 0.7});
         // Exactly on an edge Embree may report the adjacent triangle.
         wrong += crossings.fronts != in_reach.size() || crossings.backs != backs_in_reach.size() ? 1 : 0;
         if (in_reach.empty() || !is_hit) {
@@ -168,7 +168,7 @@ TEST(Rays, HitTheSameTogetherAsOneByOne) {
         for (std::size_t i = 0; i < lines.size(); ++i) {
             RayHit alone;
             const RayLine& line = lines[i];
-            const bool is_hit = (*rays)->outermost(line.from, line.outward, line.begin, line.end, line.group, alone);
+            const bool is_hit = (*rays)->outermost(line, alone);
             hits += is_hit ? 1 : 0;
             // Exactly on an edge Embree may report the adjacent triangle.
             const bool is_same =

@@ -32,12 +32,12 @@ Occlusion occlusionAt(const MapSurfaces& surfaces, const SurfaceHit& hit, const 
         const DVec3 direction = turned(axes, normal, cosineDirection(points.at(i)));
         if (!(dot(direction, hit.face) > 0)) continue;
         ++over;
-        if (options.has_sky && !rays.isBlocked(hit.place, direction, begin, sky, hit.triangle)) {
+        if (options.has_sky && !rays.isBlocked({hit.place, direction, begin, sky}, hit.triangle)) {
             ++open;
             bent = bent + direction;
         }
         RayHit inside;
-        if (options.has_thickness && rays.firstOfAny(hit.place, -1.0 * direction, begin, far, hit.triangle, inside)) {
+        if (options.has_thickness && rays.firstOfAny({hit.place, -1.0 * direction, begin, far}, hit.triangle, inside)) {
             ++solid;
             thickness += inside.distance * dot(direction, normal);
         }

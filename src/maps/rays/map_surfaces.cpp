@@ -40,27 +40,6 @@ std::string sizesApart(const PositionBox& low, const PositionBox& high) {
 
 }  // namespace
 
-PositionBox::PositionBox(const StridedSpan<const Vec3>& points) {
-    for (std::size_t i = 0; i < points.count; ++i) {
-        if (isFinite(points[i])) add(toDouble(points[i]));
-    }
-}
-
-void PositionBox::add(const DVec3& point) {
-    least = {std::fmin(least.x, point.x), std::fmin(least.y, point.y), std::fmin(least.z, point.z)};
-    most = {std::fmax(most.x, point.x), std::fmax(most.y, point.y), std::fmax(most.z, point.z)};
-}
-
-double PositionBox::difference(const PositionBox& other) const {
-    const DVec3 a = least - other.least, b = most - other.most;
-    return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z), std::fabs(b.x), std::fabs(b.y), std::fabs(b.z)});
-}
-
-bool PositionBox::meets(const PositionBox& other, double margin) const {
-    return least.x - margin <= other.most.x && other.least.x - margin <= most.x && least.y - margin <= other.most.y &&
-           other.least.y - margin <= most.y && least.z - margin <= other.most.z && other.least.z - margin <= most.z;
-}
-
 double reachBetween(const PositionBox& low, const PositionBox& high) {
     if (low.isEmpty() || high.isEmpty()) return 0;
     const double size = std::max(low.diagonal(), high.diagonal());
@@ -272,11 +251,11 @@ bool MapSurfaces::meet(const Ray& ray, double& guess, RayHit& hit) const {
         hit.distance = ray.height - hit.distance;
         return true;
     }
-    return rays_->outermost(ray.place, ray.outward, -reach_, ray.height, ray.group, hit) || meetBeyond(ray, hit);
+    return rays_->outermost(ray.line(-reach_, ray.height), hit) || meetBeyond(ray, hit);
 }
 
 bool MapSurfaces::meetBeyond(const Ray& ray, RayHit& hit) const {
-    return ray.height < reach_ && rays_->innermost(ray.place, ray.outward, ray.height, reach_, ray.group, hit);
+    return ray.height < reach_ && rays_->innermost(ray.line(ray.height, reach_), hit);
 }
 
 RayNeighborhood MapSurfaces::around(const Ray& ray, const RayHit* hit) const {
@@ -284,9 +263,9 @@ RayNeighborhood MapSurfaces::around(const Ray& ray, const RayHit* hit) const {
     // to the length of the ray.
     constexpr double kNearby = 1e-6;
     const double most = std::max(ray.height, reach_), least = -reach_;
-    if (hit == nullptr) return {.met_back = rays_->crossings(ray.place, ray.outward, least, most, ray.group).backs > 0};
-    const RayCrossings crossings = rays_->crossings(ray.place, ray.outward, hit->distance + kNearby * (most + reach_),
-                                                    std::max(most, hit->distance), ray.group);
+    if (hit == nullptr) return {.met_back = rays_->crossings(ray.line(least, most)).backs > 0};
+    const double begin = hit->distance + kNearby * (most + reach_);
+    const RayCrossings crossings = rays_->crossings(ray.line(begin, std::max(most, hit->distance)));
     return {.has_front_further_out = crossings.fronts > 0, .met_back = crossings.backs > 0};
 }
 
@@ -315,7 +294,7 @@ std::uint32_t MapSurfaces::meetAll(std::span<const LowPoint> points, double& gue
             continue;
         }
         aimed |= 1U << i;
-        if (is_from_cage) lines[i] = {ray.place, ray.outward, -reach_, ray.height, ray.group};
+        if (is_from_cage) lines[i] = ray.line(-reach_, ray.height);
     }
     if (is_from_cage) met = rays_->outermost(std::span(lines).first(points.size()), hits);
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -17,22 +17,7 @@
 
 namespace tspace {
 
-// Bounding boxes of points, and the diagnosis of meshes that should coincide but do not.
-
-struct PositionBox {
-    DVec3 least{INFINITY, INFINITY, INFINITY}, most{-INFINITY, -INFINITY, -INFINITY};
-
-    PositionBox() = default;
-    /// Creates the bounding box of the finite points.
-    explicit PositionBox(const StridedSpan<const Vec3>& points);
-
-    void add(const DVec3& point);
-    [[nodiscard]] bool isEmpty() const { return !(least.x <= most.x); }
-    [[nodiscard]] double diagonal() const { return isEmpty() ? 0 : length(most - least); }
-    /// Returns the largest distance between corresponding sides of the two boxes.
-    [[nodiscard]] double difference(const PositionBox& other) const;
-    [[nodiscard]] bool meets(const PositionBox& other, double margin) const;
-};
+// Diagnosis of meshes that should coincide but do not.
 
 /// Returns the default ray reach for meshes with these bounding boxes (see chosenReach).
 double reachBetween(const PositionBox& low, const PositionBox& high);
@@ -116,6 +101,8 @@ class MapSurfaces {
         DVec3 place = {}, outward = {};
         double height = 0;
         std::uint32_t group = 0;
+
+        [[nodiscard]] RayLine line(double begin, double end) const { return {place, outward, begin, end, group}; }
     };
     bool rayAt(std::size_t triangle, const std::array<double, 3>& weights, Ray& ray) const;
     /// Finds the hit of a ray; `hit`.distance is measured outward from the low poly.

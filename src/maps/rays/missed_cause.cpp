@@ -115,7 +115,7 @@ class Trial {
         std::size_t count = 0;
         for (const Sample& sample : samples_) {
             const RayCrossings crossings =
-                surface_.crossings(sample.place, sample.outward, -reach, reach, sample.group);
+                surface_.crossings({sample.place, sample.outward, -reach, reach, sample.group});
             count += crossings.backs > 0 && crossings.fronts == 0 ? 1 : 0;
         }
         return partOf(count);

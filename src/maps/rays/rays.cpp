@@ -24,6 +24,27 @@
 
 namespace tspace {
 
+PositionBox::PositionBox(const StridedSpan<const Vec3>& points) {
+    for (std::size_t i = 0; i < points.count; ++i) {
+        if (isFinite(points[i])) add(toDouble(points[i]));
+    }
+}
+
+void PositionBox::add(const DVec3& point) {
+    least = {std::fmin(least.x, point.x), std::fmin(least.y, point.y), std::fmin(least.z, point.z)};
+    most = {std::fmax(most.x, point.x), std::fmax(most.y, point.y), std::fmax(most.z, point.z)};
+}
+
+double PositionBox::difference(const PositionBox& other) const {
+    const DVec3 a = least - other.least, b = most - other.most;
+    return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z), std::fabs(b.x), std::fabs(b.y), std::fabs(b.z)});
+}
+
+bool PositionBox::meets(const PositionBox& other, double margin) const {
+    return least.x - margin <= other.most.x && other.least.x - margin <= most.x && least.y - margin <= other.most.y &&
+           other.least.y - margin <= most.y && least.z - margin <= other.most.z && other.least.z - margin <= most.z;
+}
+
 #ifdef TSPACE_HAS_EMBREE
 
 namespace {
@@ -141,23 +162,22 @@ enum class Wanted : std::uint8_t {
 
 /// A line and its best hit so far.
 struct Query {
-    const RaySurface::State* surface;
-    DVec3 from, direction;
-    double begin, end;  ///< limits of the distance along the direction
-    Wanted wanted;
-    std::uint32_t group;
-    std::uint32_t skipped;  ///< triangle to ignore; kNothingSkipped: none
-    bool is_hit;
-    RayHit best;
-    RayCrossings crossings;
+    const RaySurface::State* surface = nullptr;
+    RayLine line = {};  ///< `outward` is the direction of the search
+    Wanted wanted = Wanted::nearest;
+    std::uint32_t skipped = kNothingSkipped;  ///< triangle to ignore
+    bool is_hit = false;
+    RayHit best = {};
+    RayCrossings crossings = {};
 
     /// Returns the rank of a hit at a distance: the hit with the lowest rank is the best.
     [[nodiscard]] double rank(double distance) const {
         return wanted == Wanted::nearest ? std::fabs(distance) : wanted == Wanted::last ? -distance : distance;
     }
     [[nodiscard]] bool reaches(double distance) const {
-        if (wanted == Wanted::nearest) return std::fabs(distance) <= std::max(std::fabs(begin), std::fabs(end));
-        return distance >= begin && distance <= end;
+        if (wanted == Wanted::nearest)
+            return std::fabs(distance) <= std::max(std::fabs(line.begin), std::fabs(line.end));
+        return distance >= line.begin && distance <= line.end;
     }
 };
 
@@ -195,15 +215,15 @@ void forLines(const RTCFilterFunctionNArguments* arguments, const Visit& visit) 
 void countCrossing(Query& query, std::uint32_t triangle) {
     for (const double sign : {1.0, -1.0}) {
         PlanePoint point;
-        if (!query.surface->meet(triangle, query.from, sign * query.direction, point)) continue;
+        if (!query.surface->meet(triangle, query.line.from, sign * query.line.outward, point)) continue;
         if (query.reaches(sign * point.distance)) ++(sign > 0 ? query.crossings.fronts : query.crossings.backs);
     }
 }
 
 /// Intersects the line with the front or the back of a triangle. Returns false if the line misses the triangle.
 bool meetEitherSide(const Query& query, std::uint32_t triangle, PlanePoint& point) {
-    if (query.surface->meet(triangle, query.from, query.direction, point)) return true;
-    if (!query.surface->meet(triangle, query.from, -1.0 * query.direction, point)) return false;
+    if (query.surface->meet(triangle, query.line.from, query.line.outward, point)) return true;
+    if (!query.surface->meet(triangle, query.line.from, -1.0 * query.line.outward, point)) return false;
     point.distance = -point.distance;
     return true;
 }
@@ -220,9 +240,9 @@ void acceptBlocking(const RTCFilterFunctionNArguments* arguments) {
 
 /// Updates the best hit of a line with a triangle that the line hits.
 void takeHit(Query& query, std::uint32_t triangle) {
-    if (!query.surface->groups.empty() && query.group != kEveryGroup) {
+    if (!query.surface->groups.empty() && query.line.group != kEveryGroup) {
         const std::uint32_t group = query.surface->groups[triangle];
-        if (group != query.group && group != kEveryGroup) return;
+        if (group != query.line.group && group != kEveryGroup) return;
     }
     if (query.wanted == Wanted::all) {
         countCrossing(query, triangle);
@@ -231,7 +251,7 @@ void takeHit(Query& query, std::uint32_t triangle) {
     PlanePoint point;
     const bool is_met = query.wanted == Wanted::any
                             ? triangle != query.skipped && meetEitherSide(query, triangle, point)
-                            : query.surface->meet(triangle, query.from, query.direction, point);
+                            : query.surface->meet(triangle, query.line.from, query.line.outward, point);
     if (!is_met || !query.reaches(point.distance)) return;
     const double rank = query.rank(point.distance), best = query.is_hit ? query.rank(query.best.distance) : 0;
     if (query.is_hit && !(rank < best || (rank == best && triangle < query.best.triangle))) return;
@@ -249,16 +269,11 @@ void collectHits(const RTCFilterFunctionNArguments* arguments) {
 
 /// Sets center and scale from the finite positions.
 void findPlace(RaySurface::State& state) {
-    DVec3 least{1e300, 1e300, 1e300}, most = -1.0 * least;
-    for (std::size_t i = 0; i < state.positions.count; ++i) {
-        const Vec3& at = state.positions[i];
-        if (!isFinite(at)) continue;
-        least = {std::fmin(least.x, at.x), std::fmin(least.y, at.y), std::fmin(least.z, at.z)};
-        most = {std::fmax(most.x, at.x), std::fmax(most.y, at.y), std::fmax(most.z, at.z)};
-    }
-    if (!(least.x <= most.x)) return;
-    state.center = 0.5 * (least + most);
-    const double size = std::max({most.x - least.x, most.y - least.y, most.z - least.z});
+    const PositionBox box(state.positions);
+    if (box.isEmpty()) return;
+    state.center = 0.5 * (box.least + box.most);
+    const DVec3 sides = box.most - box.least;
+    const double size = std::max({sides.x, sides.y, sides.z});
     state.scale = size > 0 ? 1 / size : 1;
     state.size = 1 / state.scale;
 }
@@ -354,39 +369,23 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
 
 namespace {
 
-/// Returns a query for the line between `begin` and `end`, without a hit yet.
-Query lineOf(const RaySurface::State& state, const DVec3& from, const DVec3& direction, double begin, double end,
-             Wanted wanted, std::uint32_t group) {
-    Query query;
-    query.surface = &state;
-    query.from = from;
-    query.direction = direction;
-    query.begin = begin;
-    query.end = end;
-    query.wanted = wanted;
-    query.crossings = {};
-    query.group = group;
-    query.skipped = kNothingSkipped;
-    query.is_hit = false;
-    return query;
-}
-
 /// Converts the part of a line near the surface to Embree's coordinates. Returns false if there is none.
 bool placeRay(const Query& query, RTCRay& ray) {
     // Embree terminates the process if a ray starts or ends beyond 1.8e18, so it gets only the part near the surface,
     // whose bounding box has sides of at most 1 about the center.
     constexpr double kBeyond = 2;
     const RaySurface::State& state = *query.surface;
-    const double middle = dot(state.center - query.from, query.direction);
-    const double begin = std::max(query.begin, middle - kBeyond * state.size);
-    const double end = std::min(query.end, middle + kBeyond * state.size);
-    const DVec3 place = state.scale * (query.from + begin * query.direction - state.center);
+    const RayLine& line = query.line;
+    const double middle = dot(state.center - line.from, line.outward);
+    const double begin = std::max(line.begin, middle - kBeyond * state.size);
+    const double end = std::min(line.end, middle + kBeyond * state.size);
+    const DVec3 place = state.scale * (line.from + begin * line.outward - state.center);
     if (!(begin <= end) || !(dot(place, place) <= 4 * kBeyond * kBeyond)) return false;
     const Vec3 origin = toFloat(place);
     ray.org_x = origin.x;
     ray.org_y = origin.y;
     ray.org_z = origin.z;
-    const Vec3 along = toFloat(query.direction);
+    const Vec3 along = toFloat(line.outward);
     ray.dir_x = along.x;
     ray.dir_y = along.y;
     ray.dir_z = along.z;
@@ -444,11 +443,19 @@ void shootAll(std::span<Query> queries) {
 #endif
 }
 
-Query shoot(const RaySurface::State& state, const DVec3& from, const DVec3& direction, double begin, double end,
-            Wanted wanted, std::uint32_t group) {
-    Query query = lineOf(state, from, direction, begin, end, wanted, group);
+Query shoot(const RaySurface::State& state, const RayLine& line, Wanted wanted) {
+    Query query{.surface = &state, .line = line, .wanted = wanted};
     shoot(query);
     return query;
+}
+
+/// Returns the line in the opposite direction.
+RayLine reversed(const RayLine& line) { return {line.from, -1.0 * line.outward, -line.end, -line.begin, line.group}; }
+
+/// Returns a query for any triangle but one.
+Query anyBut(std::uint32_t skipped, const RaySurface::State& state, RayLine line) {
+    line.group = kEveryGroup;
+    return {.surface = &state, .line = line, .wanted = Wanted::any, .skipped = skipped};
 }
 
 /// Returns whether acceptBlocking accepts a triangle on the line.
@@ -484,7 +491,7 @@ bool RaySurface::nearest(const DVec3& from, const DVec3& outward, double reach, 
     // A fraction of a very small reach may underflow to zero.
     const double least = std::max(reach / 1024, std::min(reach, std::numeric_limits<double>::min()));
     for (double half = std::clamp(guess, least, reach);; half = std::min(4 * half, reach)) {
-        if (copyReversed(shoot(*state_, from, inward, -half, half, Wanted::nearest, group), hit)) {
+        if (copyReversed(shoot(*state_, {from, inward, -half, half, group}, Wanted::nearest), hit)) {
             guess = 2 * std::fabs(hit.distance);
             return true;
         }
@@ -493,44 +500,36 @@ bool RaySurface::nearest(const DVec3& from, const DVec3& outward, double reach, 
 }
 
 bool RaySurface::first(const DVec3& from, const DVec3& inward, double most, std::uint32_t group, RayHit& hit) const {
-    const Query query = shoot(*state_, from, inward, 0, most, Wanted::nearest, group);
+    const Query query = shoot(*state_, {from, inward, 0, most, group}, Wanted::nearest);
     if (query.is_hit) hit = query.best;
     return query.is_hit;
 }
 
-bool RaySurface::outermost(const DVec3& from, const DVec3& outward, double begin, double end, std::uint32_t group,
-                           RayHit& hit) const {
-    return copyReversed(shoot(*state_, from, -1.0 * outward, -end, -begin, Wanted::first, group), hit);
+bool RaySurface::outermost(const RayLine& line, RayHit& hit) const {
+    return copyReversed(shoot(*state_, reversed(line), Wanted::first), hit);
 }
 
-bool RaySurface::innermost(const DVec3& from, const DVec3& outward, double begin, double end, std::uint32_t group,
-                           RayHit& hit) const {
-    return copyReversed(shoot(*state_, from, -1.0 * outward, -end, -begin, Wanted::last, group), hit);
+bool RaySurface::innermost(const RayLine& line, RayHit& hit) const {
+    return copyReversed(shoot(*state_, reversed(line), Wanted::last), hit);
 }
 
 std::uint32_t RaySurface::outermost(std::span<const RayLine> lines, std::span<RayHit> hits) const {
     std::array<Query, kLinesAtOnce> queries;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-        const RayLine& line = lines[i];
-        queries[i] = lineOf(*state_, line.from, -1.0 * line.outward, -line.end, -line.begin, Wanted::first, line.group);
-    }
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        queries[i] = {.surface = state_.get(), .line = reversed(lines[i]), .wanted = Wanted::first};
     if (!lines.empty()) shootAll({queries.data(), lines.size()});
     std::uint32_t met = 0;
     for (std::size_t i = 0; i < lines.size(); ++i) met |= copyReversed(queries[i], hits[i]) ? 1U << i : 0U;
     return met;
 }
 
-bool RaySurface::isBlocked(const DVec3& from, const DVec3& direction, double begin, double end,
-                           std::uint32_t skipped) const {
-    Query query = lineOf(*state_, from, direction, begin, end, Wanted::any, kEveryGroup);
-    query.skipped = skipped;
+bool RaySurface::isBlocked(const RayLine& line, std::uint32_t skipped) const {
+    Query query = anyBut(skipped, *state_, line);
     return isHidden(query);
 }
 
-bool RaySurface::firstOfAny(const DVec3& from, const DVec3& direction, double begin, double end, std::uint32_t skipped,
-                            RayHit& hit) const {
-    Query query = lineOf(*state_, from, direction, begin, end, Wanted::any, kEveryGroup);
-    query.skipped = skipped;
+bool RaySurface::firstOfAny(const RayLine& line, std::uint32_t skipped, RayHit& hit) const {
+    Query query = anyBut(skipped, *state_, line);
     shoot(query);
     if (query.is_hit) hit = query.best;
     return query.is_hit;
@@ -538,9 +537,8 @@ bool RaySurface::firstOfAny(const DVec3& from, const DVec3& direction, double be
 
 double RaySurface::size() const { return state_->size; }
 
-RayCrossings RaySurface::crossings(const DVec3& from, const DVec3& outward, double begin, double end,
-                                   std::uint32_t group) const {
-    return shoot(*state_, from, -1.0 * outward, -end, -begin, Wanted::all, group).crossings;
+RayCrossings RaySurface::crossings(const RayLine& line) const {
+    return shoot(*state_, reversed(line), Wanted::all).crossings;
 }
 
 #else
@@ -556,12 +554,12 @@ Result<std::unique_ptr<const RaySurface>> RaySurface::make(StridedSpan<const Vec
 }
 bool RaySurface::nearest(const DVec3&, const DVec3&, double, std::uint32_t, double&, RayHit&) const { return false; }
 bool RaySurface::first(const DVec3&, const DVec3&, double, std::uint32_t, RayHit&) const { return false; }
-bool RaySurface::outermost(const DVec3&, const DVec3&, double, double, std::uint32_t, RayHit&) const { return false; }
-bool RaySurface::innermost(const DVec3&, const DVec3&, double, double, std::uint32_t, RayHit&) const { return false; }
+bool RaySurface::outermost(const RayLine&, RayHit&) const { return false; }
+bool RaySurface::innermost(const RayLine&, RayHit&) const { return false; }
 std::uint32_t RaySurface::outermost(std::span<const RayLine>, std::span<RayHit>) const { return 0; }
-RayCrossings RaySurface::crossings(const DVec3&, const DVec3&, double, double, std::uint32_t) const { return {}; }
-bool RaySurface::isBlocked(const DVec3&, const DVec3&, double, double, std::uint32_t) const { return false; }
-bool RaySurface::firstOfAny(const DVec3&, const DVec3&, double, double, std::uint32_t, RayHit&) const { return false; }
+RayCrossings RaySurface::crossings(const RayLine&) const { return {}; }
+bool RaySurface::isBlocked(const RayLine&, std::uint32_t) const { return false; }
+bool RaySurface::firstOfAny(const RayLine&, std::uint32_t, RayHit&) const { return false; }
 double RaySurface::size() const { return 1; }
 
 #endif

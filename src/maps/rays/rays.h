@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -14,6 +15,22 @@
 #include "tspace/span.h"
 
 namespace tspace {
+
+/// Bounding box.
+struct PositionBox {
+    DVec3 least{INFINITY, INFINITY, INFINITY}, most{-INFINITY, -INFINITY, -INFINITY};
+
+    PositionBox() = default;
+    /// Creates the bounding box of the finite points.
+    explicit PositionBox(const StridedSpan<const Vec3>& points);
+
+    void add(const DVec3& point);
+    [[nodiscard]] bool isEmpty() const { return !(least.x <= most.x); }
+    [[nodiscard]] double diagonal() const { return isEmpty() ? 0 : length(most - least); }
+    /// Returns the largest distance between corresponding sides of the two boxes.
+    [[nodiscard]] double difference(const PositionBox& other) const;
+    [[nodiscard]] bool meets(const PositionBox& other, double margin) const;
+};
 
 struct RayHit {
     std::uint32_t triangle = 0;
@@ -62,27 +79,20 @@ class RaySurface {
     /// Finds the first triangle within `most` from `from` along `inward` (unit) whose front faces `from`.
     bool first(const DVec3& from, const DVec3& inward, double most, std::uint32_t group, RayHit& hit) const;
 
-    /// Finds the outermost (or innermost) triangle that the line along `outward` (unit) hits between `begin` and `end`,
-    /// among triangles whose front faces `outward`.
-    bool outermost(const DVec3& from, const DVec3& outward, double begin, double end, std::uint32_t group,
-                   RayHit& hit) const;
-    bool innermost(const DVec3& from, const DVec3& outward, double begin, double end, std::uint32_t group,
-                   RayHit& hit) const;
+    /// Finds the outermost (or innermost) triangle that the line hits, among triangles whose front faces outward.
+    bool outermost(const RayLine& line, RayHit& hit) const;
+    bool innermost(const RayLine& line, RayHit& hit) const;
     /// Finds the outermost hits of at most kLinesAtOnce lines, in half of the time of single calls if the lines are
     /// close together. Bit i of the result is set if line i has a hit, which is stored in hits[i].
     [[nodiscard]] std::uint32_t outermost(std::span<const RayLine> lines, std::span<RayHit> hits) const;
 
-    /// Counts the front and back faces that the line along `outward` (unit) crosses from `begin` to `end`.
-    [[nodiscard]] RayCrossings crossings(const DVec3& from, const DVec3& outward, double begin, double end,
-                                         std::uint32_t group) const;
+    /// Counts the front and back faces that the line crosses.
+    [[nodiscard]] RayCrossings crossings(const RayLine& line) const;
 
-    /// Returns whether the line from `from` along `direction` (unit) hits a triangle other than `skipped` between
-    /// `begin` and `end`, regardless of orientation and group.
-    [[nodiscard]] bool isBlocked(const DVec3& from, const DVec3& direction, double begin, double end,
-                                 std::uint32_t skipped) const;
+    /// Returns whether the line hits a triangle other than `skipped`, regardless of orientation and group.
+    [[nodiscard]] bool isBlocked(const RayLine& line, std::uint32_t skipped) const;
     /// Finds the first triangle that would make isBlocked return true.
-    bool firstOfAny(const DVec3& from, const DVec3& direction, double begin, double end, std::uint32_t skipped,
-                    RayHit& hit) const;
+    bool firstOfAny(const RayLine& line, std::uint32_t skipped, RayHit& hit) const;
 
     /// Returns the longest side of the surface's bounding box.
     [[nodiscard]] double size() const;
