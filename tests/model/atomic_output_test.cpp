@@ -12,6 +12,7 @@
 #include "gltf_builder.h"
 #include "model/io/atomic_output.h"
 #include "model/io/system_files.h"
+#include "model/io/temporary_files.h"
 #include "support/temp_folder.h"
 
 namespace tspace {

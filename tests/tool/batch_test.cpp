@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "model/io/atomic_output.h"
+#include "model/io/temporary_files.h"
 #include "tool/folder_files.h"
 #include "tool/run_tool.h"
 

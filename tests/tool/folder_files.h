@@ -13,7 +13,7 @@
 
 #include "images/float_image.h"
 #include "images/images.h"
-#include "model/io/atomic_output.h"
+#include "model/io/temporary_files.h"
 #include "tool/run_tool.h"
 
 namespace tspace::test {

@@ -9,7 +9,7 @@
 #include <atomic>
 #include <initializer_list>
 
-#include "model/io/atomic_output.h"
+#include "model/io/temporary_files.h"
 
 namespace tspace::tool {
 namespace {

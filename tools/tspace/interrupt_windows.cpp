@@ -7,7 +7,7 @@
 #include <initializer_list>
 
 #include "interrupt.h"
-#include "model/io/atomic_output.h"
+#include "model/io/temporary_files.h"
 
 namespace tspace::tool {
 namespace {

@@ -20,7 +20,7 @@
 #include "input_kinds.h"
 #include "interrupt.h"
 #include "jobs.h"
-#include "model/io/atomic_output.h"
+#include "model/io/temporary_files.h"
 #include "page_origin.h"
 #include "read_command_line.h"
 #include "system.h"

@@ -12,9 +12,9 @@
 
 #include "commands/shared/report.h"
 #include "console.h"
-#include "model/io/abandoned_files.h"
 #include "model/io/file_io.h"
 #include "model/io/system_files.h"
+#include "model/io/temporary_files.h"
 #include "model/io/uri.h"
 #include "system.h"
 

@@ -8,10 +8,10 @@
 #include <set>
 
 #include "depfile.h"
-#include "model/io/abandoned_files.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/system_files.h"
+#include "model/io/temporary_files.h"
 
 namespace tspace::tool {
 

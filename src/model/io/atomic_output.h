@@ -71,42 +71,6 @@ struct OutputPiece {
     std::shared_ptr<const ByteMaker> maker = {};  ///< owner or generator of the bytes; null if the caller owns them
 };
 
-// Temporary files. Their names identify the process that owns them. The files of this process are listed, so that a
-// signal handler can remove them, together with the folders that were created for them.
-
-inline constexpr const char* kTemporaryEnding = ".tmp";
-/// Name ending of the old file while new files are renamed.
-inline constexpr const char* kBackupEnding = ".old";
-
-/// Returns an unpredictable name next to `target`: TARGET.tspace-MACHINE-PROCESS-RANDOM and the ending. Long target
-/// names are cut, so that the result has at most 255 bytes.
-Path temporaryName(const Path& target, const char* ending);
-
-/// Critical section for creating, removing or renaming temporary files; signals are blocked, and only one thread can be
-/// inside. The constructor does not return once removeTemporaryFiles() has removed the files.
-class TemporaryFilesLock {
-  public:
-    TemporaryFilesLock();
-    ~TemporaryFilesLock();
-    TemporaryFilesLock(const TemporaryFilesLock&) = delete;
-    TemporaryFilesLock& operator=(const TemporaryFilesLock&) = delete;
-
-    /// Must be called before the file or folder is created.
-    void add(const Path& path);
-    /// Must be called when the file or folder is removed, renamed, or kept permanently.
-    void forget(const Path& path) noexcept;
-    /// Must be called after outputs have been put in place.
-    void noteCommit() noexcept;
-
-  private:
-    HeldSignals signals_;
-};
-
-/// Removes all temporary files, and blocks threads that would create others: the caller must terminate the program. If
-/// outputs of this process are in place and `even_after_commit` is false, removes nothing and returns false.
-/// Async-signal-safe.
-bool removeTemporaryFiles(bool even_after_commit);
-
 /// Input files of one call, which its outputs must not replace: files that it reads, and images that its models
 /// reference.
 class InputFiles {
@@ -206,8 +170,9 @@ class AtomicOutput {
     void addSource(const Path& source);
     [[nodiscard]] const std::vector<std::string>& sources() const { return sources_; }
 
-    /// Renames all temporary files to their targets; the last one added is renamed last. If a rename fails, the
-    /// previous renames are undone. While a HeldOutputs exists on this thread, commit() hands the files to it instead.
+    /// Renames all temporary files to their targets. The first one added, a model, is renamed last, when the files that
+    /// it references are in place. If a rename fails, the previous renames are undone. While a HeldOutputs exists on
+    /// this thread, commit() hands the files to it instead.
     void commit();
 
     /// Returns the targets in the order of adding, and their total size.
@@ -225,6 +190,8 @@ class AtomicOutput {
         bool is_shared = false;  ///< the file was added by addShared()
         std::uint64_t call = 0;  ///< InputFiles::call() of the call; 0: none
     };
+
+    struct Renaming;
 
     [[noreturn]] static void failToWrite(const Path& target, const std::string& why);
     // Implemented in disk/atomic_output_disk.cpp.

@@ -3,215 +3,28 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <map>
 #include <mutex>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
-#include "core/base/border.h"
-#include "core/base/unique_index.h"
-#include "model/io/abandoned_files.h"
 #include "model/io/atomic_output.h"
 #include "model/io/disk/stepped_writer.h"
 #include "model/io/file_error.h"
 #include "model/io/file_io.h"
 #include "model/io/recorded_files.h"
 #include "model/io/system_files.h"
+#include "model/io/temporary_files.h"
 #include "tspace/callbacks.h"
 #include "tspace/file_options.h"
 #include "tspace/result.h"
 
 namespace tspace {
 
-// Temporary files of this process, and those left by killed processes.
-//
-// A signal handler may neither lock a mutex nor allocate. It waits until no thread works on the list of temporary
-// files. Threads block signals during such work, so the handler never interrupts this work on its own thread.
-//
-// A process ID is meaningful only on one machine, since its last boot, among processes of one PID namespace. The names
-// of temporary files therefore contain all three.
-
 namespace fs = std::filesystem;
-
-namespace {
-
-std::mutex work_mutex;
-std::atomic<bool> is_busy = false, is_ending = false, has_committed = false;
-
-/// Paths of the temporary files; null until the first one. Never deleted, because a signal may arrive while the program
-/// ends.
-std::vector<Path>* temporary_files = nullptr;
-
-}  // namespace
-
-TemporaryFilesLock::TemporaryFilesLock() {
-    work_mutex.lock();
-    for (is_busy = true; is_ending; is_busy = true) {
-        is_busy = false;
-        while (is_ending) waitBriefly();
-    }
-}
-
-TemporaryFilesLock::~TemporaryFilesLock() {
-    is_busy = false;
-    work_mutex.unlock();
-}
-
-void TemporaryFilesLock::add(const Path& path) {
-    if (temporary_files == nullptr) temporary_files = new std::vector<Path>;
-    temporary_files->push_back(path);
-}
-
-void TemporaryFilesLock::forget(const Path& path) noexcept {
-    if (temporary_files == nullptr) return;
-    const auto found = std::find_if(temporary_files->begin(), temporary_files->end(),
-                                    [&](const Path& known) { return known.string() == path.string(); });
-    if (found == temporary_files->end()) return;
-    // The order is preserved: a folder precedes its contents.
-    temporary_files->erase(found);
-}
-
-void TemporaryFilesLock::noteCommit() noexcept { has_committed = true; }
-
-bool removeTemporaryFiles(bool even_after_commit) {
-    is_ending = true;
-    // This is long enough to rename a few files; if it takes longer, the disk hangs.
-    constexpr int kPatience_ms = 5000;
-    for (int waited = 0; is_busy; ++waited) {
-        if (waited == kPatience_ms) return true;
-        waitBriefly();
-    }
-    if (has_committed && !even_after_commit) {
-        is_ending = false;
-        return false;
-    }
-    if (temporary_files == nullptr) return true;
-    // removePath() removes only empty folders.
-    for (auto path = temporary_files->rbegin(); path != temporary_files->rend(); ++path) removePath(*path);
-    return true;
-}
-
-namespace {
-
-std::string sixteenDigits(std::uint64_t number) {
-    std::string digits;
-    for (int shift = 60; shift >= 0; shift -= 4) digits += "0123456789abcdef"[number >> shift & 15];
-    return digits;
-}
-
-/// Returns the hash of processSpace() as 16 hexadecimal digits.
-std::string machineTag() {
-    const std::string text = processSpace();
-    std::uint64_t hash = text.size();
-    for (const char c : text) hash = foldHash(hash, static_cast<unsigned char>(c));
-    return sixteenDigits(hash);
-}
-
-const std::string& machineMark() {
-    static const std::string mark = ".tspace-" + machineTag() + "-";
-    return mark;
-}
-
-/// Target and kind of a temporary file that a process left behind, according to its name.
-struct Abandoned {
-    std::string target_name;
-    bool is_backup;  ///< false: a temporary file
-};
-
-std::optional<Abandoned> abandoned(std::string_view name) {
-    const std::size_t at = name.rfind(machineMark());
-    if (at == std::string_view::npos || at == 0) return {};
-    const bool is_backup = name.ends_with(kBackupEnding);
-    if (!is_backup && !name.ends_with(kTemporaryEnding)) return {};
-    Abandoned found{std::string(name.substr(0, at)), is_backup};
-    name.remove_suffix(std::string_view(kTemporaryEnding).size());
-    name.remove_prefix(std::min(name.size(), at + machineMark().size()));
-    const std::size_t dash = name.find('-');
-    constexpr std::size_t kMaxDigits = 10;
-    const auto hasOnly = [](std::string_view text, const char* digits, std::size_t most) {
-        return !text.empty() && text.size() <= most && text.find_first_not_of(digits) == std::string_view::npos;
-    };
-    if (dash == std::string_view::npos || !hasOnly(name.substr(0, dash), "0123456789", kMaxDigits) ||
-        !hasOnly(name.substr(dash + 1), "0123456789abcdef", 16))
-        return {};
-    const std::uint64_t process = std::strtoull(std::string(name.substr(0, dash)).c_str(), nullptr, 10);
-    if (process > UINT32_MAX || isRunning(static_cast<std::uint32_t>(process))) return {};
-    return found;
-}
-
-bool removeAbandoned(const Path& folder, const FolderEntry& entry) {
-    // Links are skipped, because abandoned files are always regular files.
-    if (entry.kind != PathKind::file || entry.is_link) return false;
-    const std::optional<Abandoned> found = abandoned(entry.name);
-    if (!found) return false;
-    const Path path = folder / entry.name, target = folder / found->target_name;
-    // The run was killed between two renames, so the old file is restored.
-    if (found->is_backup && kindOf(target) == PathKind::nothing) return renameFile(path, target) == 0;
-    return removePath(path) == 0;
-}
-
-}  // namespace
-
-Path temporaryName(const Path& target, const char* ending) {
-    constexpr std::size_t kMaxBytes = 255;
-    const std::string tail =
-        machineMark() + std::to_string(processNumber()) + "-" + sixteenDigits(randomNumber()) + ending;
-    std::string name = Path(fs::path(target).filename()).string();
-    if (name.size() + tail.size() > kMaxBytes) {
-        std::size_t length = kMaxBytes - tail.size();
-        // Cuts at the start of a UTF-8 character (continuation bytes are 10xxxxxx).
-        while (length > 0 && (static_cast<unsigned char>(name[length]) & 0xc0u) == 0x80u) --length;
-        name.resize(length);
-    }
-    const Path folder = fs::path(target).parent_path();
-    return folder.empty() ? Path(name + tail) : folder / (name + tail);
-}
-
-namespace {
-
-void removeAbandonedFiles(const std::string& top, bool with_folders_below, std::uint64_t& count) {
-    std::vector<Path> folders = {top};
-    while (!folders.empty()) {
-        const Path folder = std::move(folders.back());
-        folders.pop_back();
-        std::vector<FolderEntry> entries;
-        // Folders that cannot be read are skipped.
-        listFolder(folder, entries);
-        for (const FolderEntry& entry : entries) {
-            count += removeAbandoned(folder, entry);
-            if (with_folders_below && entry.kind == PathKind::folder && !entry.is_link)
-                folders.push_back(folder / entry.name);
-        }
-    }
-}
-
-}  // namespace
-
-std::uint64_t removeAbandonedFiles(const std::string& folder, bool with_folders_below) {
-    std::uint64_t count = 0;
-    // If memory runs out, the abandoned files stay until the next call.
-    static_cast<void>(atBorder([&]() -> Result<Done> {
-        removeAbandonedFiles(folder, with_folders_below, count);
-        return Done{};
-    }));
-    return count;
-}
-
-void removeAbandonedOnce(const Path& folder) {
-    static std::mutex mutex;
-    static std::set<std::string> known;
-    {
-        const std::lock_guard lock(mutex);
-        if (!known.insert(folder.string()).second) return;
-    }
-    removeAbandonedFiles(folder.string(), false);
-}
 
 namespace {
 
@@ -492,6 +305,105 @@ bool AtomicOutput::leave(const Path& target, std::span<const std::uint8_t> bytes
     return true;
 }
 
+/// Renames the files of an AtomicOutput. Old files are set aside first, so that a partial failure can be undone. The
+/// constructor allocates everything, so that no allocation can fail after a file has changed.
+struct AtomicOutput::Renaming {
+    struct Backup {
+        Path name = {};
+        bool is_made = false;
+    };
+
+    std::vector<File>& files;
+    std::vector<Backup> backups;     ///< one per file; without a name if no old file is set aside
+    std::vector<RunFile*> in_run;    ///< one per file: its uses by all calls of the run; null without a run
+    std::vector<Path> folders = {};  ///< folders to flush to the disk
+
+    explicit Renaming(AtomicOutput& output) : files(output.files_), backups(files.size()), in_run(files.size()) {
+        for (std::size_t i = 0; i < files.size(); ++i) {
+            if (!files[i].is_made) continue;
+            if (output.options_.sync) addFolder(folderOf(files[i].target));
+            inRun(files[i].target, [&](RunFile& known) { in_run[i] = &known; });
+            if (files.size() > 1 && kindOf(files[i].target) == PathKind::file)
+                backups[i].name = temporaryName(files[i].target, kBackupEnding);
+        }
+        for (const Path& folder : output.created_folders_) {
+            if (output.options_.sync) addFolder(folderOf(folder));
+        }
+    }
+
+    void addFolder(Path folder) {
+        const auto isIt = [&](const Path& known) { return known.string() == folder.string(); };
+        if (std::none_of(folders.begin(), folders.end(), isIt)) folders.push_back(std::move(folder));
+    }
+
+    /// Records in the run that its calls must not read the targets any more, or that they may. The caller holds the
+    /// mutex of the run.
+    void setWritten(bool is_written) {
+        for (std::size_t i = 0; i < files.size(); ++i) {
+            if (!files[i].is_made || in_run[i] == nullptr) continue;
+            in_run[i]->owner = is_written ? files[i].call : 0;
+            in_run[i]->is_written = is_written;
+        }
+    }
+
+    /// Calls setWritten(true) and returns true, unless another call of the run has begun to read a target.
+    bool claim() {
+        const std::lock_guard run_lock(runFiles().mutex);
+        for (std::size_t i = 0; i < files.size(); ++i) {
+            const bool is_read = in_run[i] != nullptr && in_run[i]->isReadByOther(files[i].call);
+            if (files[i].is_made && is_read && kindOf(files[i].target) != PathKind::nothing) return false;
+        }
+        setWritten(true);
+        return true;
+    }
+
+    /// Sets the old file aside, if that was planned, and renames the new one. Returns 0 or errno.
+    int replace(std::size_t i) {
+        const File& file = files[i];
+        if (kindOf(file.target) == PathKind::folder) return EISDIR;
+        if (!backups[i].name.empty()) {
+            // Falls back to renaming on file systems without hard links.
+            int failure = linkFile(file.target, backups[i].name);
+            if (failure != 0) failure = renameFile(file.target, backups[i].name);
+            if (failure != 0) return failure;
+            backups[i].is_made = true;
+        }
+        return renameFile(file.temporary, file.target);
+    }
+
+    /// Restores the old files, after replace(failed) has failed.
+    void undo(std::size_t failed) {
+        for (std::size_t i = failed; i < files.size(); ++i) {
+            if (backups[i].is_made) {
+                renameFile(backups[i].name, files[i].target);
+                // If both names still refer to one file, renaming has no effect.
+                removePath(backups[i].name);
+            } else if (i != failed && files[i].is_made) {
+                removePath(files[i].target);
+            }
+        }
+    }
+
+    /// Replaces all targets, the first file last. Returns 0, or errno after undoing all, and the file in `failed`.
+    int run(const std::vector<Path>& created_folders, std::size_t& failed) {
+        TemporaryFilesLock work;
+        for (failed = files.size(); failed-- > 0;) {
+            const int failure = files[failed].is_made ? replace(failed) : 0;
+            if (failure == 0) continue;
+            undo(failed);
+            return failure;
+        }
+        for (std::size_t i = 0; i < files.size(); ++i) {
+            if (backups[i].is_made) removePath(backups[i].name);
+            work.forget(files[i].temporary);
+            files[i].is_made = false;
+        }
+        for (const Path& folder : created_folders) work.forget(folder);
+        work.noteCommit();
+        return 0;
+    }
+};
+
 void AtomicOutput::renameFiles() {
     for (const File& file : files_) {
         const int failure = file.is_stream ? writeStream(file.target, file.held) : 0;
@@ -502,92 +414,22 @@ void AtomicOutput::renameFiles() {
     for (const File& file : files_) {
         if (!file.is_stream) recordOutput(file.target.string());
     }
-    // Old files are set aside first, so that a partial failure can be undone. No allocations from here on.
-    struct Backup {
-        Path name = {};
-        bool is_made = false;
-    };
-    std::vector<Backup> backups(files_.size());
-    std::vector<RunFile*> in_run(files_.size());
-    std::vector<Path> folders;
-    const auto addFolder = [&](Path folder) {
-        const auto isIt = [&](const Path& known) { return known.string() == folder.string(); };
-        if (options_.sync && std::none_of(folders.begin(), folders.end(), isIt)) folders.push_back(std::move(folder));
-    };
-    for (std::size_t i = 0; i < files_.size(); ++i) {
-        if (!files_[i].is_made) continue;
-        addFolder(folderOf(files_[i].target));
-        inRun(files_[i].target, [&](RunFile& known) { in_run[i] = &known; });
-        if (files_.size() > 1 && kindOf(files_[i].target) == PathKind::file)
-            backups[i].name = temporaryName(files_[i].target, kBackupEnding);
-    }
-    for (const Path& folder : created_folders_) addFolder(folderOf(folder));
+    Renaming renames(*this);
     // Before the files change, other calls must not begin to read them, nor have begun since they were checked.
-    const auto setWritten = [&](bool is_written) {
-        for (std::size_t i = 0; i < files_.size(); ++i) {
-            if (!files_[i].is_made || in_run[i] == nullptr) continue;
-            in_run[i]->owner = is_written ? files_[i].call : 0;
-            in_run[i]->is_written = is_written;
-        }
-    };
-    const auto claim = [&] {
-        const std::lock_guard run_lock(runFiles().mutex);
-        for (std::size_t i = 0; i < files_.size(); ++i) {
-            const bool is_read = in_run[i] != nullptr && in_run[i]->isReadByOther(files_[i].call);
-            if (files_[i].is_made && is_read && kindOf(files_[i].target) != PathKind::nothing) return false;
-        }
-        setWritten(true);
-        return true;
-    };
-    if (!claim()) {
+    if (!renames.claim()) {
         leaveSharedFiles();
-        if (!claim()) failToWrite(files_.front().target, kIsInputOfOther);
+        if (!renames.claim()) failToWrite(files_.front().target, kIsInputOfOther);
     }
-    int failure = 0;
-    std::size_t failed = files_.size();
-    {
-        TemporaryFilesLock work;
-        for (std::size_t i = files_.size(); i-- > 0 && failure == 0;) {
-            const File& file = files_[i];
-            if (!file.is_made) continue;
-            failed = i;
-            if (kindOf(file.target) == PathKind::folder) {
-                failure = EISDIR;
-            } else if (!backups[i].name.empty()) {
-                // Falls back to renaming on file systems without hard links.
-                failure = linkFile(file.target, backups[i].name);
-                if (failure != 0) failure = renameFile(file.target, backups[i].name);
-                backups[i].is_made = failure == 0;
-            }
-            if (failure == 0) failure = renameFile(file.temporary, file.target);
-        }
-        for (std::size_t i = failed; failure != 0 && i < files_.size(); ++i) {
-            if (backups[i].is_made) {
-                renameFile(backups[i].name, files_[i].target);
-                // If both names still refer to one file, renaming has no effect.
-                removePath(backups[i].name);
-            } else if (i != failed && files_[i].is_made) {
-                removePath(files_[i].target);
-            }
-        }
-        for (std::size_t i = 0; failure == 0 && i < files_.size(); ++i) {
-            if (backups[i].is_made) removePath(backups[i].name);
-            work.forget(files_[i].temporary);
-            files_[i].is_made = false;
-        }
-        if (failure == 0) {
-            for (const Path& folder : created_folders_) work.forget(folder);
-            work.noteCommit();
-        }
-    }
+    std::size_t failed = 0;
+    const int failure = renames.run(created_folders_, failed);
     if (failure != 0) {
         const std::lock_guard run_lock(runFiles().mutex);
-        setWritten(false);
+        renames.setWritten(false);
         failToWrite(files_[failed].target, std::strerror(failure));
     }
     committed_ = true;
     lock.unlock();
-    for (const Path& folder : folders) syncFolder(folder);
+    for (const Path& folder : renames.folders) syncFolder(folder);
 }
 
 }  // namespace tspace
