@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <filesystem>
 #include <memory>
 
 #include "command_table.h"
@@ -59,7 +58,7 @@ void addCheckReporting(Command& command, CheckArguments& arguments) {
 /// Returns whether a file is named like a normal map: rock_normal.png, Rock-NRM.tga, rock_n.dds.
 bool isNormalMapName(const std::string& file) {
     static constexpr std::array kWords = {"n", "nor", "norm", "normals", "nrm", "nrml", "nml", "ddn"};
-    const std::string stem = lowerAscii(Path(std::filesystem::path(Path(file)).stem()).string());
+    const std::string stem = lowerAscii(stemOf(Path(file)));
     if (stem.find("normal") != std::string::npos) return true;
     std::string word;
     for (const char c : stem + '.') {
