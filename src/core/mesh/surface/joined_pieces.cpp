@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/base/mesh_loops.h"
 #include "core/base/near_positions.h"
 #include "core/base/owned_mesh.h"
 #include "core/base/parallel.h"
@@ -28,7 +29,7 @@ JoinedPieces::JoinedPieces(std::span<const std::span<const Vec3>> vertex_lists, 
     weld(vertex_lists, weld_distance);
     markShared();
     std::map<Pair, Votes> votes;
-    voteByEdges(sharedEdges(), votes);
+    voteByEdges(votes);
     voteByTriangles(votes);
     group(votes);
     std::erase_if(borders_, [&](const Border& border) {
@@ -67,34 +68,31 @@ void JoinedPieces::markShared() {
     }
 }
 
-std::vector<JoinedPieces::EdgeUse> JoinedPieces::sharedEdges() const {
-    std::vector<EdgeUse> edges;
-    for (std::uint32_t piece = 0; piece < pieces_.size(); ++piece) {
-        for (std::uint32_t t = 0; t < pieces_[piece].corners.size() / 3; ++t) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t a = corner({piece, t}, k), b = corner({piece, t}, (k + 1) % 3);
-                if (a == b || !is_shared_[a] || !is_shared_[b]) continue;
-                edges.push_back({std::min(a, b), std::max(a, b), {piece, t}, a < b});
-            }
-        }
-    }
-    sortList(edges.begin(), edges.end(), [](const EdgeUse& a, const EdgeUse& b) {
-        return std::tie(a.low, a.high, a.at.piece, a.at.triangle) < std::tie(b.low, b.high, b.at.piece, b.at.triangle);
-    });
-    return edges;
-}
-
 /// Counts the votes of shared edges. Edges of more than two triangles are ignored, because their neighbors are
 /// ambiguous.
-void JoinedPieces::voteByEdges(const std::vector<EdgeUse>& edges, std::map<Pair, Votes>& votes) {
-    for (std::size_t i = 0, past = 0; i < edges.size(); i = past) {
-        while (past < edges.size() && edges[past].low == edges[i].low && edges[past].high == edges[i].high) ++past;
-        if (past - i != 2 || edges[i].at.piece == edges[i + 1].at.piece) continue;
-        Votes& pair = votes[{edges[i].at.piece, edges[i + 1].at.piece}];
-        const bool agrees = edges[i].is_forward != edges[i + 1].is_forward;
-        ++(agrees ? pair.agreeing : pair.turned);
-        if (agrees) borders_.push_back({{edges[i].at, edges[i + 1].at}, {edges[i].low, edges[i].high}});
+void JoinedPieces::voteByEdges(std::map<Pair, Votes>& votes) {
+    std::vector<PieceTriangle> triangles;
+    for (std::uint32_t piece = 0; piece < pieces_.size(); ++piece) {
+        for (std::uint32_t t = 0; t < pieces_[piece].corners.size() / 3; ++t) triangles.push_back({piece, t});
     }
+    const auto pointAt = [&](std::uint32_t c) { return corner(triangles[c / 3], c % 3); };
+    const auto forHalves = [&](const auto& add) {
+        for (std::uint32_t c = 0; c < 3 * triangles.size(); ++c) {
+            const std::uint32_t a = pointAt(c), b = pointAt(c % 3 == 2 ? c - 2 : c + 1);
+            if (a != b && is_shared_[a] && is_shared_[b]) add(std::min(a, b), std::max(a, b), c);
+        }
+    };
+    forEachEdge(is_shared_.size(), nullptr, forHalves,
+                [&](std::uint32_t low, std::uint32_t high, std::span<const HalfEdge> halves) {
+                    if (halves.size() != 2) return;
+                    const std::uint32_t first = cornerOf(halves[0]), second = cornerOf(halves[1]);
+                    const PieceTriangle &a = triangles[first / 3], &b = triangles[second / 3];
+                    if (a.piece == b.piece) return;
+                    Votes& pair = votes[{a.piece, b.piece}];
+                    const bool agrees = pointAt(first) != pointAt(second);
+                    ++(agrees ? pair.agreeing : pair.turned);
+                    if (agrees) borders_.push_back({{a, b}, {low, high}});
+                });
 }
 
 void JoinedPieces::voteByTriangles(std::map<Pair, Votes>& votes) const {

@@ -242,11 +242,6 @@ class JoinedPieces {
     [[nodiscard]] std::vector<PieceTriangle> around(std::uint32_t piece, unsigned rings) const;
 
   private:
-    struct EdgeUse {
-        std::uint32_t low, high;  // points at the ends of the edge
-        PieceTriangle at;
-        bool is_forward;
-    };
     struct Votes {
         std::size_t agreeing = 0, turned = 0, overlapping = 0;
     };
@@ -254,8 +249,7 @@ class JoinedPieces {
 
     void weld(std::span<const std::span<const Vec3>> vertex_lists, float distance);
     void markShared();
-    [[nodiscard]] std::vector<EdgeUse> sharedEdges() const;
-    void voteByEdges(const std::vector<EdgeUse>& edges, std::map<Pair, Votes>& votes);
+    void voteByEdges(std::map<Pair, Votes>& votes);
     void voteByTriangles(std::map<Pair, Votes>& votes) const;
     void group(const std::map<Pair, Votes>& votes);
     void listTriangles();
