@@ -3,7 +3,6 @@
 #include "commands/check/primitive_checks.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 
@@ -11,8 +10,8 @@
 #include "commands/check/frame_health.h"
 #include "commands/check/remedy.h"
 #include "commands/shared/reportable_noise.h"
+#include "core/base/mesh_loops.h"
 #include "core/base/numbers.h"
-#include "core/base/unique_index.h"
 #include "core/base/vec_math.h"
 #include "core/mesh/surface/surface.h"
 #include "tspace/winding.h"
@@ -129,34 +128,27 @@ double facingOf(const PrimitiveFacts& facts, const Directions& directions, std::
 /// front: mendWinding flips both or neither.
 bool haveSoundNeighbors(const PrimitiveFacts& facts, const Directions& directions,
                         std::span<const std::uint32_t> against) {
-    struct Edge {
-        std::size_t count = 0;
-        std::uint32_t faces[2] = {};
-        bool is_forward[2] = {};
-    };
     const std::span<const std::uint32_t> corners = facts.mesh.corners;
     std::vector<bool> is_near(facts.mesh.positions.size(), false);
     for (const std::uint32_t face : against)
         for (std::size_t k = 0; k < 3; ++k) is_near[corners[3 * face + k]] = true;
-    UniqueIndex<std::array<std::uint32_t, 2>> numbers;
-    std::vector<Edge> edges;
-    for (std::uint32_t c = 0; c < corners.size(); ++c) {
-        const std::uint32_t from = corners[c], to = corners[c % 3 == 2 ? c - 2 : c + 1];
-        if (!is_near[from] || !is_near[to] || facts.surface.faces[c / 3].area == 0) continue;
-        const std::uint32_t number = numbers.indexOf({std::min(from, to), std::max(from, to)});
-        if (number == edges.size()) edges.emplace_back();
-        Edge& edge = edges[number];
-        if (edge.count < 2) {
-            edge.faces[edge.count] = c / 3;
-            edge.is_forward[edge.count] = from < to;
+    const auto forHalves = [&](const auto& add) {
+        for (std::uint32_t c = 0; c < corners.size(); ++c) {
+            const std::uint32_t from = corners[c], to = corners[c % 3 == 2 ? c - 2 : c + 1];
+            if (is_near[from] && is_near[to] && facts.surface.faces[c / 3].area != 0)
+                add(std::min(from, to), std::max(from, to), c);
         }
-        ++edge.count;
-    }
-    return std::any_of(edges.begin(), edges.end(), [&](const Edge& edge) {
-        if (edge.count != 2 || edge.is_forward[0] == edge.is_forward[1]) return false;
-        const double a = facingOf(facts, directions, edge.faces[0]), b = facingOf(facts, directions, edge.faces[1]);
-        return std::min(a, b) < kMinFacing && std::max(a, b) > -kMinFacing;
-    });
+    };
+    bool have = false;
+    forEachEdge(is_near.size(), nullptr, forHalves,
+                [&](std::uint32_t, std::uint32_t, std::span<const HalfEdge> halves) {
+                    if (halves.size() != 2) return;
+                    const std::uint32_t c = cornerOf(halves[0]), d = cornerOf(halves[1]);
+                    if (corners[c] == corners[d]) return;  // both run in the same direction
+                    const double a = facingOf(facts, directions, c / 3), b = facingOf(facts, directions, d / 3);
+                    have = have || (std::min(a, b) < kMinFacing && std::max(a, b) > -kMinFacing);
+                });
+    return have;
 }
 
 /// Returns whether no normal would point to the back after flipping triangles as `generate --fix-winding` does.
