@@ -4,17 +4,11 @@
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { makeIndexedFrames, ready } from "tspace";
-import { GlbBuilder } from "../src/model/glb.js";
+import { GlbBuilder, readGlb } from "../src/model/glb.js";
 import { png } from "./png.mjs";
 
 const [, , cratePath, folder] = process.argv;
 const kRingSize = 256;
-
-/** Returns the JSON and the binary chunk of a GLB that this script's programs wrote. */
-function readGlb(bytes) {
-  const length = bytes.readUInt32LE(12);
-  return { json: JSON.parse(bytes.toString("utf8", 20, 20 + length)), binary: bytes.subarray(28 + length) };
-}
 
 function floatsOf({ json, binary }, index) {
   const { bufferView, count, type } = json.accessors[index];

@@ -3,10 +3,12 @@
 // that is no longer current are dropped.
 import { Vector3 } from "three";
 import { LoaderError, loadModel } from "./model/load.js";
-import { imageOf, isMapName, surfaceWith } from "./model/lone_map.js";
+import { imageOf, surfaceWith } from "./model/lone_map.js";
 import { glbOfObj } from "./model/obj.js";
-import { triangleCount, type Model, type Part } from "./model/part.js";
-import { missingFiles, Refusal, type ModelFiles } from "./files.js";
+import type { Model } from "./model/model.js";
+import type { Reports } from "./views/share.js";
+import { triangleCount, type Part } from "./model/part.js";
+import { isMapName, missingFiles, Refusal, type ModelFiles } from "./files.js";
 import type { MotionView } from "./views/motion.js";
 import type { PartsView } from "./views/parts.js";
 import { Scene, type Drawn } from "./picture/scene.js";
@@ -37,12 +39,6 @@ export interface Views {
   /** Called when everything is complete: the picture, the findings, and the origin of the tangents. */
   ready: () => void;
   inspected: (report: InspectReport) => void;
-}
-
-export interface Reports {
-  inspect?: unknown;
-  check?: unknown;
-  identify?: unknown;
 }
 
 const sentenceOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Files that the user dropped or chose: determines the model, and the files that it references.
 import { unzipSync } from "fflate";
-import { isMapName } from "./model/lone_map.js";
 import type { CheckReport } from "tspace/gltf";
 
 export interface ModelFiles {
@@ -21,6 +20,8 @@ export class Refusal extends Error {}
 
 export const kMostBytes = 1 << 30;
 export const kMostFiles = 2000;
+/** Media types of images, by ending; KTX2 and DDS are converted to PNG. */
+const kMapTypes: Record<string, string> = { png: "image/png", jpg: "image/jpeg", jpeg: "image/jpeg", webp: "image/webp", ktx2: "image/png", dds: "image/png" };
 const kModel = /\.(glb|vrm|gltf|obj)$/i;
 
 /** A readable file, on disk or in an archive. */
@@ -178,3 +179,11 @@ export async function chooseModel(named: Named[], chosen?: string): Promise<Mode
   }
   return model;
 }
+
+const ending = (name: string): string => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
+export const isMapName = (name: string): boolean => ending(name) in kMapTypes;
+/** Media type of a map as the page shows it. */
+export const mapType = (name: string): string => kMapTypes[ending(name)];
+
+/** Returns the name of the fixed map: `bricks.dds` becomes `bricks-fixed.png`. */
+export const fixedMapName = (name: string): string => name.replace(/^.*\//, "").replace(/\.[^.]*$/, `-fixed.${kMapTypes[ending(name)] === "image/png" ? "png" : ending(name)}`);

@@ -3,7 +3,7 @@
 import "./style.css";
 import { App } from "./app.js";
 import { el, filePicker, replaceChildren } from "./dom.js";
-import { chooseModel, droppedFiles, modelsIn, pickedFiles, Pile, type ModelFiles, type Named } from "./files.js";
+import { chooseModel, droppedFiles, mapType, modelsIn, pickedFiles, Pile, type ModelFiles, type Named } from "./files.js";
 import { embeddedModel, pageOrigin } from "./embedded.js";
 import { lessonLink } from "./lesson.js";
 import { keepLink, linkedBy, Visited } from "./link.js";
@@ -12,7 +12,7 @@ import { forgetModel, keepModel, keptModel } from "./own_store.js";
 import { askedModel, askFirst, filesAt } from "./asked.js";
 import { samples, type Sample } from "./samples.js";
 import { loadModel } from "./model/load.js";
-import { imageOf, mapType, surfaceWith } from "./model/lone_map.js";
+import { imageOf, surfaceWith } from "./model/lone_map.js";
 import { mapReading, planFor, worstOf, type Plan } from "./views/advice.js";
 import { ConvertView } from "./views/convert.js";
 import { FindingsView } from "./views/findings.js";

@@ -3,19 +3,8 @@
 // original names.
 import { zipSync } from "fflate";
 import { fileUris, type ModelFiles } from "../files.js";
+import { readGlb, type Json } from "./glb.js";
 
-interface ImageJson {
-  uri?: string;
-  mimeType?: string;
-  bufferView?: number;
-}
-interface Json {
-  buffers?: { byteLength: number; uri?: string }[];
-  bufferViews?: { buffer: number; byteOffset?: number; byteLength: number }[];
-  images?: ImageJson[];
-  extensionsUsed?: string[];
-  [name: string]: unknown;
-}
 type Bytes = Uint8Array<ArrayBuffer>;
 
 /** Extensions that reference buffer views by other names than `bufferView`. */
@@ -23,11 +12,6 @@ const kOwnReferences = /^EXT_(structural|feature|instance)_(metadata|features)$|
 
 const pathOf = (uri: string): string => decodeURIComponent(uri).replace(/^\.\//, "");
 const isFile = (uri: string | undefined): uri is string => uri !== undefined && !/^[a-z][a-z0-9+.-]*:/i.test(uri);
-
-export function readGlb(bytes: Bytes): { json: Json; binary: Bytes } {
-  const length = new DataView(bytes.buffer, bytes.byteOffset).getUint32(12, true);
-  return { json: JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + length))) as Json, binary: bytes.subarray(Math.min(bytes.length, 28 + length)) };
-}
 
 /** Renumbers all members named `bufferView`, at any depth. */
 function renumber(value: unknown, numbers: readonly number[]): void {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes GLB. Plain JavaScript, because samples/make.mjs runs it in node without compilation.
+// Writes and reads GLB. Plain JavaScript, because samples/make.mjs runs it in node without compilation.
 
 const kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 
@@ -67,4 +67,25 @@ export class GlbBuilder {
     }
     return out;
   }
+}
+
+/**
+ * The members of a glTF file that the page edits.
+ * @typedef {{
+ *   buffers?: { byteLength: number; uri?: string }[];
+ *   bufferViews?: { buffer: number; byteOffset?: number; byteLength: number }[];
+ *   images?: { uri?: string; mimeType?: string; bufferView?: number }[];
+ *   extensionsUsed?: string[];
+ *   [name: string]: unknown;
+ * }} Json
+ */
+
+/**
+ * Returns the JSON and the binary chunk of a valid GLB. Without a binary chunk, `binary` is empty.
+ * @param {Uint8Array<ArrayBuffer>} bytes
+ * @returns {{ json: Json; binary: Uint8Array<ArrayBuffer> }}
+ */
+export function readGlb(bytes) {
+  const length = new DataView(bytes.buffer, bytes.byteOffset).getUint32(12, true);
+  return { json: JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + length))), binary: bytes.subarray(Math.min(bytes.length, 28 + length)) };
 }

@@ -9,7 +9,8 @@ import { arraysOf, uvsOf } from "./arrays.js";
 import { Motion } from "./motion.js";
 import { poseOf } from "./pose.js";
 import { giveDecoders } from "./compressed.js";
-import type { Model, Part, TreeNode } from "./part.js";
+import type { Model, TreeNode } from "./model.js";
+import type { Part } from "./part.js";
 import { materialIn, putOn, variantsOf, type Origin } from "./variants.js";
 import { missingImages, normalImagesOf, readTextureFiles } from "./textures.js";
 

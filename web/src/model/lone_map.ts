@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A normal map without a model: it is shown on a flat surface, so that it can be lit, and so that all functions for
 // models work.
-import { readGlb } from "./folder.js";
-import { GlbBuilder } from "./glb.js";
+import { mapType } from "../files.js";
+import { GlbBuilder, readGlb } from "./glb.js";
 
-const types: Record<string, string> = { png: "image/png", jpg: "image/jpeg", jpeg: "image/jpeg", webp: "image/webp", ktx2: "image/png", dds: "image/png" };
 const kCells = 16;
-
-const ending = (name: string): string => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
-export const isMapName = (name: string): boolean => ending(name) in types;
-/** Media type of the image on the surface; KTX2 and DDS are converted to PNG. */
-export const mapType = (name: string): string => types[ending(name)];
 
 /** Returns a square that faces +z, with u to the right, v down, and the tangents of glTF. */
 export function surfaceWith(name: string, image: Uint8Array): Uint8Array<ArrayBuffer> {
@@ -46,6 +40,3 @@ export function imageOf(surface: Uint8Array<ArrayBuffer>): Uint8Array<ArrayBuffe
   const { json, binary } = readGlb(surface), { byteOffset = 0, byteLength } = json.bufferViews![json.images![0].bufferView!];
   return binary.slice(byteOffset, byteOffset + byteLength) as Uint8Array<ArrayBuffer>;
 }
-
-/** Returns the name of the fixed map: `bricks.dds` becomes `bricks-fixed.png`. */
-export const fixedMapName = (name: string): string => name.replace(/^.*\//, "").replace(/\.[^.]*$/, `-fixed.${types[ending(name)] === "image/png" ? "png" : ending(name)}`);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A primitive of a model in the page's representation.
 import type { BufferAttribute, InterleavedBufferAttribute, Material, Matrix4, Texture, Vector3 } from "three";
-import type { Motion } from "./motion.js";
 import type { Pose } from "./pose.js";
 import type { Arrays } from "../worker/protocol.js";
 
@@ -35,26 +34,6 @@ export interface Part {
   places: Matrix4[];
   /** Transform from the position in the file to the origin of the picture. */
   moved: Matrix4;
-}
-
-/** A node that draws something, itself or by its descendants. */
-export interface TreeNode {
-  name: string;
-  /** Placements of parts that this node draws. */
-  draws: { part: Part; first: number; count: number }[];
-  children: TreeNode[];
-}
-
-export interface Model {
-  parts: Part[];
-  tree: TreeNode[];
-  motion: Motion | null;
-  /** Index of the normal map's image for each material of the file, or -1. */
-  normalImages: number[];
-  /** Names of KHR_materials_variants. */
-  variants: string[];
-  /** Remarks about what the picture does not show. */
-  remarks: string[];
 }
 
 export const triangleCount = (arrays: Arrays): number => Math.floor((arrays.indices?.length ?? arrays.positions.length / 3) / 3);

@@ -3,8 +3,7 @@
 // starts with the options that its own findings require.
 import { folderOf, zipOf } from "../model/folder.js";
 import { checkbox, choice, count, disabledDuring, el, plural, replaceChildren, select } from "../dom.js";
-import { fixedMapName, isMapName } from "../model/lone_map.js";
-import type { ModelFiles } from "../files.js";
+import { fixedMapName, isMapName, type ModelFiles } from "../files.js";
 import type { CheckReport, Finding, GeneratedPrimitive, GenerateReport, JudgedMap } from "tspace/gltf";
 import { methods, type MapReading, type Method } from "../worker/protocol.js";
 import { adviceFor, changeOfCounts, isWorse, mapReading, noExtras, remedyOptions, type Extras, type Tangents } from "./advice.js";

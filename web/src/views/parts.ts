@@ -3,7 +3,8 @@
 import { checkbox, choice, count, el, plural, replaceChildren, select } from "../dom.js";
 import type { PageOrigin } from "../embedded.js";
 import { nameOfMap } from "../model/uv_reads.js";
-import type { Part, TreeNode } from "../model/part.js";
+import type { TreeNode } from "../model/model.js";
+import type { Part } from "../model/part.js";
 import type { Drawn } from "../picture/scene.js";
 import type { Viewport } from "../picture/viewport.js";
 import type { InspectReport } from "tspace/gltf";

@@ -2,13 +2,18 @@
 // Exports: the findings as text, Markdown or JSON, and the picture.
 import { el, plural, select } from "../dom.js";
 import { heat, heatDegrees, css } from "../color.js";
-import type { Reports } from "../app.js";
 import type { Viewport } from "../picture/viewport.js";
 import type { CheckReport, IdentifyReport } from "tspace/gltf";
 
 interface Saved {
   blob: Blob;
   name: string;
+}
+/** Reports of the commands on the open model, as far as they are computed. */
+export interface Reports {
+  inspect?: unknown;
+  check?: unknown;
+  identify?: unknown;
 }
 type Kind = "text" | "markdown" | "json";
 

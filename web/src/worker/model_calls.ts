@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Reports on model files, computed by the package's entry for glTF.
 import { check, decodeImages, generate, identify, inspect, ready } from "tspace/gltf";
-import type { ModelFiles } from "../files.js";
+import { mapType, type ModelFiles } from "../files.js";
 import { codecsFor } from "./codecs.js";
-import { mapType } from "../model/lone_map.js";
 import { decodeImage, pngOf, withEncoder } from "./images.js";
 import { decodeTexture } from "./texture_files.js";
 import type { Verb } from "./protocol.js";

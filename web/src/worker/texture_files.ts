@@ -3,7 +3,7 @@
 // they are needed.
 import { unzlibSync } from "fflate";
 import { ZSTDDecoder } from "three/examples/jsm/libs/zstddec.module.js";
-import { mapType } from "../model/lone_map.js";
+import { mapType } from "../files.js";
 import { decodeImage, pngOf } from "./images.js";
 import type { Calls, ConvertedMap, TexturePixels } from "./protocol.js";
 

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import List, Optional, Tuple
+from typing import Iterator, List, Optional, Tuple
 
 from ._generate_report import GenerateReport
-from ._report import Findings, Report
+from ._report import Report
 
 
-class CheckReport(Findings):
+class CheckReport(Report):
     #: Path of the input.
     input: str
     #: The file could be read; it may have findings.
@@ -40,6 +40,13 @@ class CheckReport(Findings):
     findings: List[Finding]
     #: Exit code of the tool: 0, or 1 if there is a finding.
     exit_code: int
+
+    def __iter__(self) -> Iterator[Finding]:
+        """Iterates over findings. A report without findings is false."""
+        return iter(self.findings)
+
+    def __len__(self) -> int:
+        return len(self.findings)
 
 
 class CheckedImage(Report):

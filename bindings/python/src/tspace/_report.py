@@ -5,10 +5,7 @@ import keyword
 import re
 from dataclasses import is_dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Type, get_args, get_type_hints
-
-if TYPE_CHECKING:
-    from ._file_reports import Finding
+from typing import Any, Dict, List, Type, get_args, get_type_hints
 
 
 class Report:
@@ -38,17 +35,6 @@ class Report:
         """Returns one line; long values, lists and objects are replaced by their size."""
         shown = ", ".join(f"{_snake_case(name)}={_brief(value)}" for name, value in self.json.items())
         return f"{type(self).__name__}({shown})"
-
-
-class Findings(Report):
-    """Report of `check`. Iterable: `for finding in tspace.check(path): ...`; `len` is the number of findings, so a
-    report without findings is false."""
-
-    def __iter__(self) -> Iterator["Finding"]:
-        return iter(self.findings)
-
-    def __len__(self) -> int:
-        return len(self.json["findings"])
 
 
 def _brief(value: Any) -> str:
