@@ -27,16 +27,11 @@ class SmallBucket {
 
     bool mayMatter() {
         findCandidates();
-        std::uint32_t crowded[kMostNodes];
         const std::span<const std::uint32_t> all = candidates();
-        std::uint32_t* end = std::copy_if(all.begin(), all.end(), crowded,
-                                          [&](std::uint32_t node) { return hasThree(in_.around[node] & twice_); });
-        if (end == crowded) return false;
+        const auto isCrowded = [&](std::uint32_t node) { return hasThree(in_.around[node] & twice_); };
+        if (std::none_of(all.begin(), all.end(), isCrowded)) return false;
         makeGrid();
-        findRepresentatives({crowded, end});
-        if (std::none_of(crowded, end, [&](std::uint32_t node) { return representatives_[node] >= least_; }))
-            return false;
-        findRepresentatives(candidates());
+        findRepresentatives();
         return orderMatters();
     }
 
@@ -93,9 +88,9 @@ class SmallBucket {
 
     [[nodiscard]] std::int32_t cellOf(std::uint32_t node) const { return cells_[node / 4][node % 4]; }
 
-    void findRepresentatives(std::span<const std::uint32_t> nodes) {
+    void findRepresentatives() {
         const std::size_t count = in_.welded.nodes.count;
-        for (const std::uint32_t node : nodes) {
+        for (const std::uint32_t node : candidates()) {
             if (representatives_[node] != kUnknown) continue;
             const Mask4 cell = Mask4{} + cellOf(node);
             std::uint64_t triangles = 0;
