@@ -124,11 +124,11 @@ class Planner {
         }
         to_.report.group_count += groups.count;
         if (in_.maySplit() && groups.count != 0) is_done &= !splitGroups(place, groups);
-        const bool has_repeats = in_.hasPolygons() && addRepeats(groups);
+        if (in_.hasPolygons()) addRepeats(groups);
         for (std::size_t i = 0; !is_done && i < groups.corners.size(); ++i) {
             const NodeCorner& corner = groups.corners[i];
             std::uint32_t& source = sources[corner.half_edge];
-            if (source == kNone && !has_repeats) default_corners_.push(slotOf(corner.half_edge));
+            if (source == kNone && !in_.hasPolygons()) default_corners_.push(slotOf(corner.half_edge));
             if ((source & kTopBit) != 0) source = kNone;
             if (corner.facing == 0) source |= kTopBit;
         }
@@ -177,15 +177,11 @@ class Planner {
     };
 
     /// Finds corners of the mesh with several half-edges, as at a quad's diagonal: each of these half-edges becomes a
-    /// conflict. Returns false, without changes, if there are none.
-    bool addRepeats(const NodeGroups& groups) {
-        bool ascending = true;
+    /// conflict. Also adds corners without a group to default_corners_, once each.
+    void addRepeats(const NodeGroups& groups) {
         repeats_.drop(repeats_.size());
-        for (std::uint32_t i = 0; i < groups.corners.size(); ++i) {
+        for (std::uint32_t i = 0; i < groups.corners.size(); ++i)
             repeats_.push({slotOf(groups.corners[i].half_edge), groups.of(i), i});
-            ascending &= i == 0 || repeats_[i - 1].slot < repeats_[i].slot;
-        }
-        if (ascending) return false;
         sortList(repeats_.begin(), repeats_.end(), std::less<>());
         const Repeat *r = repeats_.begin(), *all_end = repeats_.end();
         while (r != all_end) {
@@ -194,7 +190,6 @@ class Planner {
             grouped == r ? default_corners_.push(r->slot) : addRepeated(groups, r, grouped);
             r = end;
         }
-        return true;
     }
 
     void addRepeated(const NodeGroups& groups, const Repeat* first, const Repeat* end) {
