@@ -25,11 +25,34 @@ std::vector<NodeCorner> around(const Corners& corners) {
     return around;
 }
 
+/// Links the corners of a node by comparing all pairs.
+void linkByPairs(std::span<const NodeCorner> around, const CornerLinks& links) {
+    const auto [left, right] = links;
+    for (std::uint32_t i = 0; i < around.size(); ++i) {
+        left[i] = right[i] = kNone;
+        const std::uint32_t next = around[i].next, previous = around[i].previous;
+        for (std::uint32_t j = 0; j < i; ++j) {
+            if (around[j].previous == next && right[j] == kNone) {
+                left[i] = j;
+                right[j] = i;
+                break;
+            }
+        }
+        for (std::uint32_t j = 0; j < i; ++j) {
+            if (around[j].next == previous && left[j] == kNone) {
+                right[i] = j;
+                left[j] = i;
+                break;
+            }
+        }
+    }
+}
+
 /// Returns the number of components that are connected by the links of groups.h.
 std::size_t countParts(const Corners& corners) {
     const auto count = static_cast<std::uint32_t>(corners.next.size());
     std::vector<std::uint32_t> left(count), right(count), part(count, kNone);
-    linkSmall(around(corners), {left.data(), right.data()});
+    linkByPairs(around(corners), {left.data(), right.data()});
     std::size_t parts = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         if (part[i] != kNone) continue;
@@ -87,17 +110,17 @@ RC_GTEST_PROP(Fan, IsOneOnlyWherePairingMakesOnePart, ()) {
     if (corners.next.size() <= 8 && isPlainFan(corners)) RC_ASSERT(found);
 }
 
-RC_GTEST_PROP(Links, AreTheSameForSmallAndLargeNodes, ()) {
+RC_GTEST_PROP(Links, AreThoseOfComparingAllPairs, ()) {
     Corners corners = randomCorners(), more = randomCorners();
     corners.next.insert(corners.next.end(), more.next.begin(), more.next.end());
     corners.previous.insert(corners.previous.end(), more.previous.begin(), more.previous.end());
     const std::size_t count = corners.next.size();
-    std::vector<std::uint32_t> left(count), right(count), large_left(count), large_right(count);
+    std::vector<std::uint32_t> left(count), right(count), sorted_left(count), sorted_right(count);
     std::vector<std::uint64_t> half_edges(2 * count);
-    linkSmall(around(corners), {left.data(), right.data()});
-    linkLarge(around(corners), {large_left.data(), large_right.data()}, half_edges.data());
-    RC_ASSERT(left == large_left);
-    RC_ASSERT(right == large_right);
+    linkByPairs(around(corners), {left.data(), right.data()});
+    linkCorners(around(corners), {sorted_left.data(), sorted_right.data()}, half_edges.data());
+    RC_ASSERT(left == sorted_left);
+    RC_ASSERT(right == sorted_right);
 }
 
 TEST(Fan, KnowsAllFansOfUpToFourCornersWithFourNeighbors) {

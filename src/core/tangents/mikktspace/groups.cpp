@@ -35,32 +35,10 @@ void spread(std::uint32_t seed, const CornerLinks& links, std::uint32_t* group, 
 
 }  // namespace
 
-void linkSmall(std::span<const NodeCorner> around, const CornerLinks& links) {
-    const auto [left, right] = links;
-    for (std::uint32_t i = 0; i < around.size(); ++i) {
-        left[i] = right[i] = kNone;
-        const std::uint32_t next = around[i].next, previous = around[i].previous;
-        for (std::uint32_t j = 0; j < i; ++j) {
-            if (around[j].previous == next && right[j] == kNone) {
-                left[i] = j;
-                right[j] = i;
-                break;
-            }
-        }
-        for (std::uint32_t j = 0; j < i; ++j) {
-            if (around[j].next == previous && left[j] == kNone) {
-                right[i] = j;
-                left[j] = i;
-                break;
-            }
-        }
-    }
-}
-
-/// Links the corners of a node with many corners, by sorting its half-edges. Sort keys: the neighbor in the high word;
-/// 2 * corner in the low word, plus 1 for the outgoing edge. All waiting half-edges of one neighbor have the same
-/// direction, so the oldest is the partner of the next opposite one.
-void linkLarge(std::span<const NodeCorner> around, const CornerLinks& links, std::uint64_t* half_edges) {
+/// Sorts half-edges by neighbor, in the high word of the key, and then by corner: the low word is 2 * corner, plus 1
+/// for the outgoing edge. All waiting half-edges of one neighbor have the same direction, so the oldest is the partner
+/// of the next opposite one.
+void linkCorners(std::span<const NodeCorner> around, const CornerLinks& links, std::uint64_t* half_edges) {
     const std::size_t count = 2 * around.size();
     for (std::size_t i = 0; i < around.size(); ++i) {
         links.left[i] = links.right[i] = kNone;
@@ -89,7 +67,7 @@ Grouping::Grouping(const VertexPath& path, VertexCorners& corners)
     for (std::size_t place = 0; place < chosen_.size(); ++place)
         largest = std::max(largest, corners.around(place).size());
     scratch_ = Buffer<std::uint32_t>(allocator, 3 * largest);
-    if (largest > kSmallNode) half_edges_ = Buffer<std::uint64_t>(allocator, 2 * largest);
+    half_edges_ = Buffer<std::uint64_t>(allocator, 2 * largest);
     if (corners.report.degenerate_uv_count == 0) return;
     findContested(allocator);
     if (!contested_.empty()) spreadContested(allocator);
@@ -124,7 +102,7 @@ NodeGroups Grouping::groupsOf(std::size_t place) {
 
 void Grouping::link(std::size_t place, const CornerLinks& links) {
     const std::span<const NodeCorner> around = corners_.around(place);
-    around.size() <= kSmallNode ? linkSmall(around, links) : linkLarge(around, links, half_edges_.data());
+    linkCorners(around, links, half_edges_.data());
     if (bucket_.concerns(chosen_[place])) applyBucket(around, links);
 }
 

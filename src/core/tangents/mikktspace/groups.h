@@ -27,9 +27,6 @@
 
 namespace tspace::mikk {
 
-/// Maximum number of corners of a node that is linked by comparing all pairs, on the stack.
-inline constexpr std::uint32_t kSmallNode = 64;
-
 /// Links of each corner of a node: the corner across the edge that leaves the node, and the corner across the edge that
 /// arrives, as indices in the node's list of corners, or kNone.
 struct CornerLinks {
@@ -37,11 +34,8 @@ struct CornerLinks {
     std::uint32_t* right;
 };
 
-/// Links a node of at most kSmallNode corners, in quadratic time.
-void linkSmall(std::span<const NodeCorner> around, const CornerLinks& links);
-
-/// Links a node of any size by sorting `half_edges`, scratch memory for two numbers per corner. O(n log n).
-void linkLarge(std::span<const NodeCorner> around, const CornerLinks& links, std::uint64_t* half_edges);
+/// Links the corners of a node by sorting `half_edges`, scratch memory for two numbers per corner. O(n log n).
+void linkCorners(std::span<const NodeCorner> around, const CornerLinks& links, std::uint64_t* half_edges);
 
 /// Corners of one node (welded vertex) and the group of each corner. Groups are numbered in the order in which the
 /// reference creates them.
@@ -79,7 +73,7 @@ class Grouping {
     const LastBucket& bucket_;
     VertexCorners& corners_;
     Buffer<std::uint32_t> scratch_;     // memory for the links and groups of one node
-    Buffer<std::uint64_t> half_edges_;  // memory for linkLarge
+    Buffer<std::uint64_t> half_edges_;  // memory for linkCorners
     // number of each chosen node in contested_, or kNone, with one additional entry; empty if no triangle is contested
     Buffer<std::uint32_t> contested_of_;
     Growing<Contested> contested_;
