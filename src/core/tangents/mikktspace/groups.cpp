@@ -186,16 +186,15 @@ bool Grouping::joinsContested(std::uint32_t triangle, std::uint32_t facing) {
     return (flags & kFacing) == facing;
 }
 
-// Angular threshold: fast tests which prove that nothing splits, and the comparison of all pairs of members.
+// Angular threshold: a fast test which proves that nothing splits, and the comparison of all pairs of members.
 
 namespace {
 
-/// Margins of the fast tests, far above the rounding of a projection and three dot products: the sine of an angle to a
-/// plane, and a difference of cosines.
-constexpr float kOffPlane = 0.02f, kMargin = 1e-3f;
+/// Margin of the fast test, far above the rounding of a projection and three dot products: the sine of an angle to a
+/// plane.
+constexpr float kOffPlane = 0.02f;
 // minimum weight: below it, rounding determines the direction of a corner's row
 constexpr float kLeastWeight = 1e-4f;
-constexpr std::size_t kFewMembers = 64;  // number of members up to which the fast test compares all pairs
 
 /// Returns the minimum cosine between a member and the common direction. If all members are within half the threshold
 /// of one direction, all pairs are within the threshold. The cosine of the half angle is sqrt((1 + c) / 2).
@@ -217,25 +216,6 @@ bool areNearSum(Members members, float limit) {
         return weight > kLeastWeight && dot(sum_s, vectorOf(row)) > weight * limit_s &&
                dot(sum_t, vectorOf(corner.t())) > weight * limit_t;
     });
-}
-
-/// Returns whether all pairs of at most kFewMembers members are well within the threshold.
-bool areNearEachOther(Members members, float limit) {
-    const float *s[kFewMembers], *t[kFewMembers];
-    std::size_t count = 0;
-    for (const NodeCorner& corner : members) {
-        if (corner.facing == 0) continue;
-        const float* const row = s[count] = corner.s;
-        const float* const row_t = t[count] = corner.t();
-        if (!(row[3] > kLeastWeight)) return false;
-        for (std::size_t j = 0; j < count; ++j) {
-            const float least = limit * row[3] * s[j][3];
-            if (!(dot(vectorOf(row), vectorOf(s[j])) > least && dot(vectorOf(row_t), vectorOf(t[j])) > least))
-                return false;
-        }
-        ++count;
-    }
-    return true;
 }
 
 /// Computes the unit directions of dP/du and dP/dv, or zero for one that has no direction.
@@ -288,11 +268,7 @@ float thresholdCosine(float degrees) {
 }
 
 bool areTogether(Members members, float threshold_cosine) {
-    if (members.size() <= 1) return true;
-    const float near = threshold_cosine + kMargin;
-    if (members.size() <= 4) return areNearEachOther(members, near);
-    return areNearSum(members, halfAngleLimit(threshold_cosine)) ||
-           (members.size() <= kFewMembers && areNearEachOther(members, near));
+    return members.size() <= 1 || areNearSum(members, halfAngleLimit(threshold_cosine));
 }
 
 SplitFinder::SplitFinder(const WeldedMesh& welded, const VertexCorners& corners, float threshold_cosine,
@@ -335,7 +311,7 @@ bool SplitFinder::isNarrow(Members members) const {
 
 bool SplitFinder::splits(Members members, const Vec3& normal) {
     const auto count = static_cast<std::uint32_t>(members.size());
-    if (directions_.size() < count) directions_ = Buffer<Direction>(allocator_, std::max<std::size_t>(count, 64));
+    if (directions_.size() < count) directions_ = Buffer<Direction>(allocator_, 2 * std::size_t{count});
     for (std::uint32_t i = 0; i < count; ++i) directions_[i] = directionOf(members[i], normal);
     if (count > kLargestSplitGroup) {
         abandoned |= !isNarrow(members);
