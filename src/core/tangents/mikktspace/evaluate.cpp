@@ -32,10 +32,6 @@ class PlanTriangles final : public TriangleGroups {
         if (vertices != nullptr) std::copy_n(plan_.vertices.data() + 3 * first, 3 * triangles, vertices);
         std::copy_n(plan_.groups.data() + 3 * first, 3 * triangles, groups);
     }
-    [[nodiscard]] InPlace inPlace(std::size_t first, std::size_t) const override {
-        if (plan_.vertices.empty()) return {};
-        return {plan_.vertices.data() + 3 * first, plan_.groups.data() + 3 * first};
-    }
 
   private:
     const EvaluationPlan& plan_;
@@ -55,14 +51,11 @@ void sumRange(const EvaluationPlan& plan, const CornerSource& source, CornerTerm
                     computed);
         }
         const CornerTerms& terms = are_known ? plan.terms[batch.numbers[0] / kTermTriangles] : computed;
-        for (std::size_t i = 0; sums.rest.empty() && i < 3 * batch.count; ++i) {
-            const std::uint32_t group = batch.groups[i];
-            if (range.has(group)) addVector(&sums.groups[group].x, terms.s[i]);
-        }
-        for (std::size_t i = 0; !sums.rest.empty() && i < 3 * batch.count; ++i) {
+        for (std::size_t i = 0; i < 3 * batch.count; ++i) {
             const std::uint32_t group = batch.groups[i];
             if (!range.has(group)) continue;
             addVector(&sums.groups[group].x, terms.s[i]);
+            if (sums.rest.empty()) continue;
             addRest(sums.rest[group], terms, i / 3, i % 3);
             sums.rest[group].weight += terms.s[i][3];
         }
@@ -237,18 +230,15 @@ class Evaluation {
         computeTerms(split, scratch);
         const std::size_t words = (std::size_t{split.count} + 63) / 64;
         const std::uint64_t* row = plan_.split_rows.data() + split.rows;
-        Tangents result;
         for (std::uint32_t a = 0; a < split.count; ++a, row += words) {
-            if (a == 0 || !std::equal(row, row + words, row - words)) {
-                Vec3 sum;
-                GroupRest rest;
-                for (std::size_t word = 0; word < words; ++word) {
-                    for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1)
-                        add(split, 64 * word + static_cast<unsigned>(std::countr_zero(bits)), scratch, sum, rest);
-                }
-                result = meanOf(sum, rest, rest.weight, split.positive);
-                if (!isFinite(result.s)) finite_ = false;
+            Vec3 sum;
+            GroupRest rest;
+            for (std::size_t word = 0; word < words; ++word) {
+                for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1)
+                    add(split, 64 * word + static_cast<unsigned>(std::countr_zero(bits)), scratch, sum, rest);
             }
+            const Tangents result = meanOf(sum, rest, rest.weight, split.positive);
+            if (!isFinite(result.s)) finite_ = false;
             const std::uint32_t slot = plan_.slotOf(plan_.members[split.begin + a]);
             if ((slot & kTopBit) != 0) {
                 members_[split.begin + a] = result;
