@@ -95,13 +95,10 @@ class SmallBucket {
             const Mask4 cell = Mask4{} + cellOf(node);
             std::uint64_t triangles = 0;
             bool is_divided = false;
-            for (std::uint32_t block = 0; 4 * block < count; ++block) {
-                for (unsigned lanes = laneBits(cells_[block] == cell); lanes != 0; lanes &= lanes - 1) {
-                    const std::uint32_t other = 4 * block + static_cast<std::uint32_t>(std::countr_zero(lanes));
-                    if (other >= count) break;
-                    triangles |= in_.around[other];
-                    is_divided |= laneBits(positions_[other] != positions_[node]) != 0;
-                }
+            for (std::uint32_t other = 0; other < count; ++other) {
+                if (cellOf(other) != cell[0]) continue;
+                triangles |= in_.around[other];
+                is_divided |= laneBits(positions_[other] != positions_[node]) != 0;
             }
             // If all corners in a cell have one position, the reference does not divide the cell, and keeps the first
             // corner of each node.
