@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "textures/texture_levels.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "images/map_coverage.h"

@@ -142,11 +142,11 @@ bool haveSoundNeighbors(const PrimitiveFacts& facts, const Directions& direction
     bool have = false;
     forEachEdge(is_near.size(), nullptr, forHalves,
                 [&](std::uint32_t, std::uint32_t, std::span<const HalfEdge> halves) {
-                    if (halves.size() != 2) return;
+                    if (have || halves.size() != 2) return;
                     const std::uint32_t c = cornerOf(halves[0]), d = cornerOf(halves[1]);
                     if (corners[c] == corners[d]) return;  // both run in the same direction
                     const double a = facingOf(facts, directions, c / 3), b = facingOf(facts, directions, d / 3);
-                    have = have || (std::min(a, b) < kMinFacing && std::max(a, b) > -kMinFacing);
+                    have = std::min(a, b) < kMinFacing && std::max(a, b) > -kMinFacing;
                 });
     return have;
 }

@@ -12,7 +12,7 @@ namespace tspace {
 /// known.
 ///
 /// is_missing     one flag per element
-/// forNeighbors  forNeighbors(i, visit) calls visit(k) for each neighbor k of element i; may include i itself
+/// forNeighbors   forNeighbors(i, visit) calls visit(k) for each neighbor k of element i; may include i itself
 /// compute        compute(i) returns the value of an element as an optional
 /// set            set(i, value)
 ///

@@ -6,9 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "core/base/memory.h"
 #include "core/base/parallel.h"
-#include "maps/layout/uv_coverage.h"
 #include "maps/texels/shading.h"
 #include "tspace/maps.h"
 

@@ -10,7 +10,6 @@
 #include "core/base/parallel.h"
 #include "core/base/vec_math.h"
 #include "tspace/maps.h"
-#include "tspace/span.h"
 
 namespace tspace {
 

@@ -18,7 +18,6 @@
 #include "core/base/numbers.h"
 #include "model/io/file_io.h"
 #include "model/io/path.h"
-#include "model/io/system_files.h"
 #include "tspace/callbacks.h"
 #include "tspace/execution.h"
 #include "tspace/file_options.h"

@@ -48,7 +48,7 @@ void linkByPairs(std::span<const NodeCorner> around, const CornerLinks& links) {
     }
 }
 
-/// Returns the number of components that are connected by the links of groups.h.
+/// Returns the number of components that are connected by the links between the corners.
 std::size_t countParts(const Corners& corners) {
     const auto count = static_cast<std::uint32_t>(corners.next.size());
     std::vector<std::uint32_t> left(count), right(count), part(count, kNone);

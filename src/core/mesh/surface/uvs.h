@@ -19,7 +19,7 @@ struct UvIslands {
 
 /// Finds UV islands. Two triangles are connected if they share an edge whose ends are equal in position and in UV,
 /// whatever their vertex indices. `corners`: three per triangle, each less than positions.size() and uvs.size().
-/// Expected linear time; about 60 bytes per corner.
+/// Expected time O(n log n); about 60 bytes per corner.
 UvIslands findUvIslands(std::span<const std::uint32_t> corners, std::span<const Vec3> positions,
                         std::span<const Vec2> uvs);
 

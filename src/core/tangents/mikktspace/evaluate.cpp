@@ -230,15 +230,19 @@ class Evaluation {
         computeTerms(split, scratch);
         const std::size_t words = (std::size_t{split.count} + 63) / 64;
         const std::uint64_t* row = plan_.split_rows.data() + split.rows;
+        Tangents result;
         for (std::uint32_t a = 0; a < split.count; ++a, row += words) {
-            Vec3 sum;
-            GroupRest rest;
-            for (std::size_t word = 0; word < words; ++word) {
-                for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1)
-                    add(split, 64 * word + static_cast<unsigned>(std::countr_zero(bits)), scratch, sum, rest);
+            // A hard crease with thousands of corners has few different rows, each of which takes a long sum.
+            if (a == 0 || !std::equal(row, row + words, row - words)) {
+                Vec3 sum;
+                GroupRest rest;
+                for (std::size_t word = 0; word < words; ++word) {
+                    for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1)
+                        add(split, 64 * word + static_cast<unsigned>(std::countr_zero(bits)), scratch, sum, rest);
+                }
+                result = meanOf(sum, rest, rest.weight, split.positive);
+                if (!isFinite(result.s)) finite_ = false;
             }
-            const Tangents result = meanOf(sum, rest, rest.weight, split.positive);
-            if (!isFinite(result.s)) finite_ = false;
             const std::uint32_t slot = plan_.slotOf(plan_.members[split.begin + a]);
             if ((slot & kTopBit) != 0) {
                 members_[split.begin + a] = result;

@@ -15,8 +15,8 @@
 // primitives of real models:
 //
 // step                    the step ends if                               gain
-// mayMatter               no node has three triangles: the order of two  reads no grid for separate triangles and quads:
-//                         edges is irrelevant                            11 to 34 % of the instructions of a call
+// mayMatter               no node has three triangles: the order of two  no grid is read for separate triangles and
+//                         edges is irrelevant                            quads: 11 to 34 % of a call
 // findBucket, 5 or 10     a key of at least F is among the last          5 and 10 instead of 6 and 12: 0.3 % up to 50
 // triangles               triangles, as in natural order                 triangles, 0.7 % above 5,000
 //   24 if unordered       one in 36 edges of a late triangle has its     20,000 shuffled triangles: 6.8 % more with 10,

@@ -92,11 +92,11 @@ class SmallBucket {
         const std::size_t count = in_.welded.nodes.count;
         for (const std::uint32_t node : candidates()) {
             if (representatives_[node] != kUnknown) continue;
-            const Mask4 cell = Mask4{} + cellOf(node);
+            const std::int32_t cell = cellOf(node);
             std::uint64_t triangles = 0;
             bool is_divided = false;
             for (std::uint32_t other = 0; other < count; ++other) {
-                if (cellOf(other) != cell[0]) continue;
+                if (cellOf(other) != cell) continue;
                 triangles |= in_.around[other];
                 is_divided |= laneBits(positions_[other] != positions_[node]) != 0;
             }
@@ -105,7 +105,7 @@ class SmallBucket {
             if (!is_divided)
                 representatives_[node] = static_cast<std::uint8_t>(firstCorner(node));
             else
-                divide(cell[0], triangles);
+                divide(cell, triangles);
         }
     }
 
