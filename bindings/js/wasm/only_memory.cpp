@@ -11,6 +11,7 @@
 #include "model/io/file_error.h"
 #include "model/io/named_files.h"
 #include "model/io/recorded_files.h"
+#include "model/io/system_files.h"
 #include "model/io/uri.h"
 #include "tspace/execution.h"
 
