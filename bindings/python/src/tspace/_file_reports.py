@@ -46,7 +46,7 @@ class CheckReport(Report):
         return iter(self.findings)
 
     def __len__(self) -> int:
-        return len(self.findings)
+        return len(self.json["findings"])
 
 
 class CheckedImage(Report):

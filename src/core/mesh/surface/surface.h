@@ -147,7 +147,7 @@ Surface describeSurface(const TangentView& mesh);
 /// decides, or if the triangle has no area. Normals are ignored. Linear.
 std::vector<std::uint8_t> uvVotes(const MeshView& triangles);
 
-// Equality of vertices: by position, and by normal and UV.
+// Equality of vertices: by position, and optionally by normal, by UV, or by both.
 
 /// Returns a key for UniqueIndex: equal positions have equal keys, with both zeros equal.
 inline std::array<std::uint32_t, 3> positionKey(const Vec3& p) { return {weldBits(p.x), weldBits(p.y), weldBits(p.z)}; }
